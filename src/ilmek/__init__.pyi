@@ -45,6 +45,8 @@ from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
+from ilmek.api.orders import order as order
+from ilmek.api.orders import verify as verify
 from ilmek.api.programmes import check as check
 from ilmek.api.programmes import convert as convert
 from ilmek.api.programmes import inspect as inspect

@@ -44,7 +44,8 @@ def test_all_numbers_and_no_symbols(chart: Chart, digits: str, tmp_path: Path) -
         "wall.pdf": ("30", "16 × 12 cm"),
     }.items():  # fmt: skip
         text = text_of(tmp_path / file)
-        assert all(number.translate(native) in text for number in numbers), file
+        joined = re.sub(r"\s+", "", text)  # where the font changes pypdf begins a new line
+        assert all(re.sub(r"\s+", "", number.translate(native)) in joined for number in numbers), file
         if digits != "latin":
             latin = set(re.findall(r"[0-9]+", text.replace("lot 12", "")))
             assert latin <= {run for run in latin if set(run) == {"7"}}, file

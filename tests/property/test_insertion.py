@@ -123,6 +123,23 @@ def test_a_shaft_with_flanges_comes_into_open_slots_and_into_no_closed_bores() -
     assert blocked(bored) == {"shaft": ["frame"]}
 
 
+def test_a_fork_under_a_roof_comes_off_its_rod_by_little_more_than_half_its_size() -> None:
+    """It must rise 4 mm to pass the collars before and behind it, and may not rise more than 5.5 mm."""
+    tines = Placed(box(1 * mm, 2 * mm, 4 * mm), (placement(x=-2 * mm, z=-3 * mm), placement(x=2 * mm, z=-3 * mm)))
+    fork = body("fork", Sum((tines, Placed(box(5 * mm, 2 * mm, 4 * mm), (placement(z=mm),)))), kind=JointKind.SLIDE)
+    rod = Placed(box(2 * mm, 60 * mm, 2 * mm), (placement(z=-mm),))
+    ends = tuple(placement(y=y, z=-mm) for y in (-3 * mm, 3 * mm))
+    collars = Placed(box(10 * mm, mm, 2 * mm), ends)
+    walls = Placed(box(mm, 60 * mm, 16.5 * mm), (placement(x=-5.5 * mm, z=-6 * mm), placement(x=5.5 * mm, z=-6 * mm)))
+    lids = Placed(box(12 * mm, 60 * mm, mm), (placement(z=-7 * mm), placement(z=10.5 * mm)))
+    case = body("case", Sum((rod, collars, walls, lids)))
+    steps = insertions(Tree((case, fork)), UP, frozenset(("case",)))
+    assert blocked(steps) == {}
+    *_, along, down = steps[-1].moves
+    assert abs(along[1]) > 60 * mm
+    assert -5.5 * mm < down[2] < -4 * mm
+
+
 def test_bearings_that_hold_a_shaft_come_with_it_from_the_bench() -> None:
     """A ring cannot come past the bracket beside it: ring and shaft are put together before."""
     along = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)

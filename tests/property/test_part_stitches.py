@@ -9,10 +9,11 @@ from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.carpet.cells import PLAIN
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
 from ilmek.cli import main
-from ilmek.errors import PictureError
+from ilmek.errors import CarpetError, PictureError
 from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.oxs_reading import read_chart_oxs
 from ilmek.io.yarn_file import default_yarns
@@ -40,6 +41,11 @@ def tied(chart: Chart) -> list[list[tuple[str, str]]]:
     ]
 
 
+def bare_part(left: int, right: int) -> str:
+    """What of a cell has no stitch."""
+    return "" if left and right else "half" if left or right else "whole"
+
+
 CELLS = st.tuples(st.integers(0, 3), st.integers(0, 4), st.integers(0, 3), st.integers(0, 3))
 
 
@@ -58,19 +64,30 @@ def test_each_half_of_a_cell_has_the_colour_of_its_stitch(
             part += f'<partstitch x="{x}" y="{y}" palindex1="{one}" palindex2="{two}" direction="{direction}"/>'
             left, right = (one or left, two or right) if direction < 3 else (one or left, one or right)
         shown = {0: ground, **{n: f"#{code.lower()}" for n, code in COLOURS.items()}}
-        expected.append((shown[left], shown[right], 0 in (left, right)))
+        expected.append((shown[left], shown[right], bare_part(left, right)))
     path = tmp_path_factory.mktemp("parts") / "design.oxs"
     path.write_text(oxs(4, 3, full, part), encoding="utf-8")
     chart, _ = read_chart_oxs(path, ground=ground)
     assert [cell for line in tied(chart) for cell in line] == [(left, right) for left, right, _ in expected]
-    if bare := sum(one for *_, one in expected):
-        with pytest.raises(PictureError, match=f"{bare} of its 12 cells have no stitch"):
+    bare, halves = sum(bool(one) for *_, one in expected), sum(one == "half" for *_, one in expected)
+    if halves:
+        with pytest.raises(PictureError, match=f"{halves} of its 12 cells have a stitch on one half"):
             read_chart_oxs(path)
+    elif bare == 12:
+        with pytest.raises(CarpetError, match="without a knot"):
+            read_chart_oxs(path)
+    elif bare:
+        chart, notes = read_chart_oxs(path)
+        assert chart.cells is not None
+        assert np.flatnonzero(chart.cells.are(PLAIN)).tolist() == [at for at, one in enumerate(expected) if one[2]]
+        assert "flat weave" in notes[0]
 
 
 def test_the_case_of_another_program() -> None:
-    with pytest.raises(PictureError, match=r"42 of its 48 cells have no stitch.*--ground"):
-        read_chart_oxs(CASE)
+    flat, about = read_chart_oxs(CASE)
+    assert flat.cells is not None
+    assert (flat.cells.number(PLAIN), flat.tied.whole, flat.tied.half) == (42, (2, 3), (1, 1))
+    assert "42 cells without a stitch: flat weave; --ground makes them knots" in about
     chart, notes = read_chart_oxs(CASE, ground="#ffffff")
     assert list(chart.overlay) == [KnotMark(4, 4, HALF, 1)]
     assert chart.yarns[chart.knots[4, 4]].name == "DMC 310 Black"
@@ -81,9 +98,9 @@ def test_the_case_of_another_program() -> None:
 
 
 def test_the_command_says_what_to_do() -> None:
-    refused = CliRunner().invoke(main, ["chart", str(CASE), "--json", "-"])
-    assert refused.exit_code == 2
-    assert "42 of its 48 cells" in refused.stderr
+    flat = CliRunner().invoke(main, ["chart", str(CASE), "--json", "-"])
+    assert flat.exit_code == 0, flat.stderr
+    assert '"knots": 6,' in flat.stdout
     made = CliRunner().invoke(main, ["chart", str(CASE), "--ground", "#ffffff", "--json", "-"])
     assert made.exit_code == 0, made.stderr
     assert '"half_knots": 2' in made.stdout

@@ -39,7 +39,8 @@ class PlainRules:
                 if stop.phase == phase:
                     self.change(stop)
             self.tie([phases[phase] for phases in parts], chart)
-        self.require(sorted(row.columns.tolist()) == list(range(self.setup.columns)), "each knot once")
+        tied = [column for column, yarn in enumerate(chart) if yarn != EMPTY]
+        self.require(sorted(row.columns.tolist()) == tied, "each knot once")
         self.require(row.ends == ROW_ENDS, "the end of the row")
         for weft, end in enumerate((RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT)[: len(self.setup.wefts)]):
             self.woven[weft] += row.ends.count(end)
@@ -61,7 +62,7 @@ class PlainRules:
             self.yarn[one.head, one.tube], self.left[one.head, one.tube] = one.yarn, one.length
 
     def tie(self, parts: list[Knots], chart: list[int]) -> None:
-        visited = {head: {column} for head, column in self.position.items() if not parts[head]}
+        visited: dict[int, set[int]] = {}
         for head, knots in enumerate(parts):
             for column, tube in knots:
                 visited.setdefault(head, set()).add(column)
@@ -71,6 +72,11 @@ class PlainRules:
                 if yarn != EMPTY:
                     self.left[head, tube] -= self.setup.knot_yarn[yarn]
                     self.require(self.left[head, tube] >= -1e-9, "yarn enough")
+        if visited:
+            first, last, spacing = min(visited), max(visited), self.setup.spacing
+            self.require(min(visited[first]) >= first * spacing, "room at the left")
+            beyond = self.setup.columns - 1 - max(visited[last])
+            self.require(beyond >= (self.setup.heads - 1 - last) * spacing, "room at the right")
         for one, columns in visited.items():
             for other, others in visited.items():
                 near = min(b - a for a in columns for b in others)

@@ -166,7 +166,7 @@ BAD_LOOMS = {
         "no shift of the loom is attended",
     ),
     "design": (("colours = 8", "colors = 8"), "line 5: unknown parameter 'colors'"),
-    "neither": (('design = { width = "1.2m", colours = 8 }\n', ""), "both or neither of file and design"),
+    "neither": (('design = { width = "1.2m", colours = 8 }\n', ""), "none or of several of file, design and weavers"),
     "stops": (("doffing", 'stops = "95%"\ndoffing'), "is out of bounds; 0 to 90 %"),
     "currency": (("[[shift]]", 'currency = "TRY"\n[[shift]]'), "another currency"),
 }

@@ -23,6 +23,18 @@ from ilmek.sentences.english import ENGLISH
 SOURCES = Path(ilmek.__file__).parent
 FAMILIES = ("place.", "check.paper-", "yarn.count-allowed", "sheet.kind-", "sheet.duty-", "sheet.process-")
 FAMILIES += ("setting.", "instrument.", "sheet.bend", "sheet.twist-")
+FAMILIES += (
+    "knot.",
+    "standard.",
+    "colour.",
+    "count.",
+    "mounting.",
+    "rows.",
+    "chart.left",
+    "chart.right",
+    "chart.below",
+)
+FAMILIES += ("chart.above",)
 """Begins of keys that are put together."""
 
 

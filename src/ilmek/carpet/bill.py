@@ -3,8 +3,8 @@
     metres = knots × length per knot,   kilograms = metres × linear density,   linear density = ply / (1000 Nm)
 
 for each colour of the pile, whole, half and jufti knots with their own lengths; the ground needs warp, two wefts, ends,
-and the overcasting of the selvedges. The need is what is drawn from the hanks, waste included; a reserve is bought
-beyond it.
+and the overcasting of the selvedges, or of the cut edge of a shape. The need is what is drawn from the hanks, waste
+included; a reserve is bought beyond it.
 """
 
 import math
@@ -13,19 +13,21 @@ from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.creel import names_to_buy
+from ilmek.carpet.cut_edge import cut_share, edge_length, finished_area
 from ilmek.carpet.dye_lots import rows_of_new_lots, whole
-from ilmek.carpet.ground import GroundParams, GroundYarn, ground_yarns, selvedge_yarn
-from ilmek.carpet.pile import PileParams, knot_length
+from ilmek.carpet.ground import GroundParams, GroundYarn, binding_yarn, ground_yarns, selvedge_yarn
+from ilmek.carpet.pile import PileParams, knot_length, of_kind
 from ilmek.carpet.usual_pile import MassBand, published_band
 from ilmek.carpet.yarn import Yarn
-from ilmek.carpet.yarn_plan import YarnPlanParams, parse_hank, write_count
+from ilmek.carpet.yarn_plan import OVERCAST, YarnPlanParams, parse_hank, write_count
 from ilmek.elements.knot_kinds import FORMS
+from ilmek.errors import CarpetError, did_you_mean
 from ilmek.report.framed import RecordTable
 
 
 @dataclass(frozen=True, slots=True)
 class YarnNeed:
-    """A line of the bill: yarn and use (pile, warp, weft, end, selvedge), knots (0 but for the pile).
+    """A line of the bill: yarn and use (pile, warp, weft, end, selvedge, binding), knots (0 but for the pile).
 
     bought        name under which it is bought; a yarn on several positions of the creel has one, as in its list
     length, mass  needed, waste included [m], [kg]
@@ -55,7 +57,7 @@ class YarnNeed:
 class YarnBill:
     """The bill: pile yarns in the order of the list (those with knots), then warp, wefts, ends and selvedges.
 
-    area      of the carpet [m²]
+    area      of the finished carpet [m²]    edge  of it that is cut and bound [m]; 0: a rectangle
     currency  of all prices
     band      published mass of carpets of this density [kg/m²]; None: none is published
     """
@@ -65,6 +67,7 @@ class YarnBill:
     area: float
     currency: str
     band: MassBand | None = None
+    edge: float = 0.0
 
     @property
     def needs(self) -> tuple[YarnNeed, ...]:
@@ -117,31 +120,57 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
     ground = plan.ground(ground)
     pile = plan.pile(chart.quality)
     most = chart.yarns[max(chart.used, key=chart.tied.of)]
-    threads = (
-        *ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground),
-        selvedge_yarn(chart.size, chart.quality, most.linear_density, ground),
-    )
+    threads: tuple[GroundYarn, ...] = ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground)
+    edge = edge_length(chart)
+    if not edge:
+        threads = (*threads, selvedge_yarn(chart.size, chart.quality, most.linear_density, ground))
+    else:
+        threads = tuple(_cut(thread, chart, ground) for thread in threads)
+        if plan.binding == OVERCAST:
+            most = _binding_yarn(chart, plan.binding_yarn, most)
+            hem = (edge, plan.binding_width, chart.quality, most.linear_density, ground)
+            threads = (*threads, binding_yarn(*hem))
     names = names_to_buy(chart)
     needs = tuple(
         replace(_pile_need(chart, index, plan, pile, ground.yarns.pile), bought=names[index]) for index in chart.used
     )
     lines = tuple(_ground_need(thread, most, plan) for thread in threads if thread.length > 0)
-    return YarnBill(needs, lines, chart.size.area, plan.currency, published_band(chart.quality))
+    return YarnBill(needs, lines, finished_area(chart), plan.currency, published_band(chart.quality), edge)
+
+
+def _cut(thread: GroundYarn, chart: Chart, ground: GroundParams) -> GroundYarn:
+    """A yarn of the ground of which the part outside of the shape is cut away, both ends and fringes with it."""
+    share = {"end": 0.0, "warp": 1 - (ground.loom_waste + 2 * ground.fringe) / ground.warp_length(chart.size.length)}
+    return replace(thread, kept=share.get(thread.use, thread.kept) * (1 - cut_share(chart)))
+
+
+def _binding_yarn(chart: Chart, name: str | None, most: Yarn) -> Yarn:
+    """The yarn of the binding. Raises CarpetError for an unknown one."""
+    if name is None:
+        return most
+    names = [yarn.name for yarn in chart.yarns]
+    found = next((yarn for yarn in chart.yarns if yarn.name.casefold() == name.casefold()), None)
+    if found is None:
+        hint = did_you_mean(name, names)
+        raise CarpetError(f"--binding-yarn {name!r}: no yarn has this name", allowed=", ".join(names), do=hint)
+    return found
 
 
 def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> float:
-    """Length of a yarn of the list in all knots of a chart [m]: whole, half and jufti knots, each with its length."""
-    density = chart.yarns[yarn].linear_density
-    numbers = {form: knots for form, knots in zip(FORMS, (of[yarn] for of in chart.tied), strict=True) if knots}
-    return sum(
-        (knots * knot_length(chart.knot, chart.quality, density, pile, form) for form, knots in numbers.items()), 0.0
-    )
+    """Length of a yarn in all knots of a chart [m]: whole, half and jufti ones, by the height of their pile."""
+    density, usual, length = chart.yarns[yarn].linear_density, pile or PileParams(), 0.0
+    for kind, tied in chart.tied_by_kind:
+        own = of_kind(usual, kind)
+        for form, knots in zip(FORMS, (of[yarn] for of in tied), strict=True):
+            length += knots * knot_length(chart.knot, chart.quality, density, own, form) if knots else 0.0
+    return length
 
 
 def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, pile: PileParams, material: str) -> YarnNeed:
-    """The line of a pile yarn; of its knots both ends are cut, whatever their form."""
+    """The line of a pile yarn; of its knots both ends are cut, but those of a loop."""
     yarn, knots, length = chart.yarns[index], chart.tied.of(index), pile_length(chart, index, pile)
-    waste = 2 * pile.calibration * pile.cut_waste * knots
+    cut = sum(tied.of(index) for kind, tied in chart.tied_by_kind if not kind.loop)
+    waste = 2 * pile.calibration * pile.cut_waste * cut
     thread = GroundYarn(yarn.name, "pile", material, length, length * yarn.linear_density, max(0.0, 1 - waste / length))
     rate = plan.price("pile", material) if yarn.price is None else yarn.price
     need = _need(thread, plan, rate, yarn, knots)
@@ -150,8 +179,8 @@ def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, pile: PileParams,
 
 
 def _ground_need(thread: GroundYarn, most: Yarn, plan: YarnPlanParams) -> YarnNeed:
-    """The line of a ground yarn; the selvedges are of the pile yarn with the most knots."""
-    if thread.use == "selvedge":
+    """The line of a ground yarn; selvedges and binding are of a pile yarn, `most`."""
+    if thread.use in ("selvedge", "binding"):
         return _need(thread, plan, plan.price("pile", thread.material) if most.price is None else most.price, most)
     return _need(thread, plan, plan.price("warp" if thread.use == "warp" else "weft", thread.material))
 

@@ -7,17 +7,18 @@ distinct colour of the design gets its yarn (`yarns_of_design`). What the chart 
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.averages import reading_loss
+from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, Cells, require_knots
+from ilmek.carpet.chart_counts import ChartCounts
 from ilmek.carpet.chart_reading import ChartReading
-from ilmek.carpet.codes import CODES, eight_bits, recoded
+from ilmek.carpet.codes import CODES, NO_KNOT, recoded
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import knot_grid
+from ilmek.carpet.design import require_grid
 from ilmek.carpet.detail import detail_kept
 from ilmek.carpet.differences import differences
 from ilmek.carpet.edges_kept import edges_kept, edges_of
@@ -40,21 +41,15 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
-from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
-from ilmek.units import counted
-
-if TYPE_CHECKING:
-    from ilmek.carpet.bill import YarnBill
-    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
-class Chart(Shown):
+class Chart(ChartCounts):
     """A knot chart; what is given is checked, and converted where nothing is lost.
 
-    knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture. Any integers,
-             booleans (0 and 1) and whole floats become uint8; an array that is so already is kept, not copied
+    knots    index in `yarns` of each knot's yarn, (rows, columns), NO_KNOT where `cells` have none; row 0 is the top of
+             the picture. Any integers, booleans and whole floats become uint8; an array that is so already is kept
     yarns    1 to 255
     size, quality  of the carpet, which has length · along rows and width · across columns; also texts: "30x40cm"
     knot     symmetric or asymmetric, also by a trade name (`parse_knot`): senneh is asymmetric
@@ -62,6 +57,7 @@ class Chart(Shown):
     overlay  half knots and jufti knots; default: none
     creel    the position in the creel of each yarn, 0 to 255: its index in the indexed picture that gave it, and in
              chart.bmp; None: their order
+    cells    which cells have no knot, and which a pile of their own; None: every cell is a knot of the carpet's pile
     Raises CarpetError for knots that are no such indices or not those of the size and quality, for an unknown knot, and
     for an overlay that does not fit; YarnError for a list of no or too many yarns.
 
@@ -78,22 +74,22 @@ class Chart(Shown):
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
     creel: tuple[int, ...] | None = None
+    cells: Cells | None = None
     _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
     def __post_init__(self) -> None:
         yarns, size, quality = yarn_list(self.yarns), carpet_size(self.size), carpet_quality(self.quality)
-        meaning = f"the index in a list of {counted(len(yarns), 'yarn')}"
         checked = {
             "yarns": yarns,
             "size": size,
             "quality": quality,
             "knot": parse_knot(self.knot),
-            "knots": eight_bits(self.knots, "knots", len(yarns) - 1, meaning, CarpetError),
+            "knots": require_knots(self.knots, self.cells, yarns),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
-        _require_grid(self.knots, size, quality)
+        require_grid(self.knots, size, quality)
         require_fit(self.overlay, self.knots, len(yarns))
         if not len(yarns) == len(set(self.positions)) == len(set(self.positions) & set(range(CODES))):
             given = f"the creel {shown_value(self.creel)}"
@@ -104,30 +100,14 @@ class Chart(Shown):
 
     @classmethod
     def of(
-        cls,
-        knots: Any,
-        yarns: Sequence[Yarn],
-        size: str | CarpetSize,
-        quality: str | Quality,
-        knot: str = "symmetric",
+        cls, knots: Any, yarns: Sequence[Yarn], size: str | CarpetSize, quality: str | Quality, knot: str = "symmetric"
     ) -> "Chart":
-        """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
+        """The chart of an array of indices in `yarns`; size and quality also as texts: "30x40cm", "10x10/dm".
 
         Yarns without a count have the usual one of the quality. Raises as the class.
         """
         knotted, kind = carpet_quality(quality), parse_knot(knot)
         return cls(knots, with_counts(yarn_list(yarns), knotted, kind), carpet_size(size), knotted, kind)
-
-    @property
-    def statistics(self) -> "ChartStatistics":
-        """Changes of yarn by row, the hardest rows, small patches."""
-        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
-        return made
-
-    def bill(self) -> "YarnBill":
-        """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
-        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
-        return made
 
     @property
     def rows(self) -> int:
@@ -167,10 +147,48 @@ class Chart(Shown):
         return tied_knots(self.overlay, self.knots, self.counts)
 
     @property
+    def tied_by_kind(self) -> tuple[tuple[CellKind, TiedKnots], ...]:
+        """The knots to tie of each yarn, by the kinds of cells that are knots."""
+        cells = self.cells
+        if cells is None:
+            return ((PILE, self.tied),)
+        kinds = [index for index, kind in enumerate(cells.kinds) if kind.knotted]
+        if len(kinds) == 1:
+            return ((cells.kinds[kinds[0]], self.tied),)
+        marked, found = cells.index[self.overlay.rows, self.overlay.columns], []
+        for index in kinds:
+            own = np.bincount(self.knots[cells.index == index], minlength=len(self.yarns)).tolist()
+            found.append((cells.kinds[index], tied_knots(self.overlay.only(marked == index), self.knots, tuple(own))))
+        return tuple(found)
+
+    @property
     def used(self) -> tuple[int, ...]:
         """The yarns that at least one knot has, by index."""
         tied = self.tied
         return tuple(yarn for yarn in range(len(self.yarns)) if tied.of(yarn))
+
+    @property
+    def shades(self) -> tuple[Yarn, ...]:
+        """What is seen in a picture of the chart: its yarns, and the ground's where some cells have no knot."""
+        bare = self.cells is not None and not self.cells.tied.all()
+        return (*self.yarns, GROUND_YARN) if bare else self.yarns
+
+    @property
+    def shaded(self) -> Indices:
+        """The index in `shades` of each cell."""
+        most = np.uint8(len(self.shades) - 1)
+        return self.knots if self.cells is None else np.minimum(self.knots, most)
+
+    def yarn(self, code: int) -> Yarn:
+        """The yarn of a code of `knots`; of a cell without a knot that of the ground."""
+        return GROUND_YARN if code == NO_KNOT else self.yarns[code]
+
+    @property
+    def colour_table(self) -> Rgb:
+        """The colour of each code of `knots`, (CODES, 3): of its yarn, and of the ground where there is no knot."""
+        colours: Rgb = np.full((CODES, 3), GROUND_COLOUR, dtype=np.uint8)
+        colours[: len(self.yarns)] = [yarn.srgb for yarn in self.yarns]
+        return colours
 
     @property
     def colours(self) -> int:
@@ -185,7 +203,7 @@ class Chart(Shown):
     @property
     def lone_fraction(self) -> float:
         """Share of lone knots [-]."""
-        return self.tally().lone / self.knots.size
+        return self.tally().lone / self.tally().knots
 
     @property
     def small_patches(self) -> int:
@@ -195,18 +213,7 @@ class Chart(Shown):
     @property
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
-        return self.tally().changes / self.knots.size
-
-
-def _require_grid(knots: Indices, size: CarpetSize, quality: Quality) -> None:
-    """Raise CarpetError unless the knots are those of a carpet of this size and quality."""
-    grid = knot_grid(size, quality)
-    if knots.shape != grid:
-        raise CarpetError(
-            f"knots of the shape {knots.shape}",
-            allowed=f"{grid}, rows and columns of {size} at {quality}",
-            do="give the size and quality that these knots have",
-        )
+        return self.tally().changes / self.tally().knots
 
 
 def used_first(chart: Chart) -> Chart:

@@ -1,4 +1,4 @@
-"""How a picture became a chart."""
+"""How a picture became a chart: what its reading kept, changed and lost."""
 
 from dataclasses import field
 

@@ -13,6 +13,9 @@ from ilmek.num.compiled import uncounted
 CODES = 256
 """Entries of a table that every 8-bit code is in."""
 
+NO_KNOT = CODES - 1
+"""Code of a chart's cell without a knot: there are at most 255 yarns, numbered from 0."""
+
 
 @uncounted
 def _recode(

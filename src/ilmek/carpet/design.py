@@ -67,6 +67,17 @@ def knot_grid(size: CarpetSize, quality: Quality) -> tuple[int, int]:
     return rows, columns
 
 
+def require_grid(knots: UInt8[np.ndarray, "rows columns"], size: CarpetSize, quality: Quality) -> None:
+    """Raise CarpetError unless the knots are those of a carpet of this size and quality."""
+    grid = knot_grid(size, quality)
+    if knots.shape != grid:
+        raise CarpetError(
+            f"knots of the shape {knots.shape}",
+            allowed=f"{grid}, rows and columns of {size} at {quality}",
+            do="give the size and quality that these knots have",
+        )
+
+
 def distortion(rgb: Rgb, size: CarpetSize) -> float:
     """Relative stretch of the picture's width against its height [-]; negative where it is compressed.
 

@@ -197,5 +197,20 @@ def selvedge_yarn(
     return GroundYarn(Sentence("ground.selvedges"), "selvedge", params.yarns.pile, total, total * linear_density)
 
 
+def binding_yarn(
+    length: float, width: float, quality: Quality, linear_density: float, params: GroundParams | None = None
+) -> GroundYarn:
+    """Pile yarn that overcasts a cut edge, as `selvedge_yarn` a selvedge: turn beside turn over a hem.
+
+    length  of the edge [m]      width  b of the hem [m]
+    """
+    params = params or GroundParams()
+    yarns = carpet_yarns(params.yarns, params.warp_pitch(quality))
+    pile = MATERIALS[params.yarns.pile].diameter(linear_density)
+    around = 2 * (width + yarns.warp.diameter + yarns.sinuous_weft.diameter) + math.pi * pile
+    total = length / pile * math.hypot(around, pile)
+    return GroundYarn(Sentence("ground.binding"), "binding", params.yarns.pile, total, total * linear_density)
+
+
 def _weft(name: str, use: str, yarn: YarnProperties, length: float) -> GroundYarn:
     return GroundYarn(name, use, yarn.material, length, length * yarn.linear_density)

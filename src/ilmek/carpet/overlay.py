@@ -19,7 +19,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int32, UInt8
+from ilmek.arrays import BoolArray, Indices, Int32, UInt8
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.errors import CarpetError
 from ilmek.records import record
 
@@ -92,7 +93,10 @@ class Overlay:
 
     def between(self, first: int, stop: int) -> "Overlay":
         """The marks of the rows first to stop - 1."""
-        part = slice(*np.searchsorted(self.rows, (first, stop)).tolist())
+        return self.only(slice(*np.searchsorted(self.rows, (first, stop)).tolist()))
+
+    def only(self, part: slice | BoolArray) -> "Overlay":
+        """Some of the marks."""
         return Overlay(self.rows[part], self.columns[part], self.kinds[part], self.seconds[part])
 
     def equals(self, other: "Overlay") -> bool:
@@ -148,6 +152,7 @@ def require_fit(overlay: Overlay, knots: Indices, yarns: int) -> None:
     _refuse(overlay, np.append(False, near), knots, "overlaps the one before it", "one half or jufti knot in a cell")
     flat = knots.reshape(-1)
     unlike = jufti & (flat[cells] != flat[cells + jufti])
+    _refuse(overlay, flat[cells] == NO_KNOT, knots, "has no knot", "marks of knots only")
     _refuse(overlay, unlike, knots, "has two yarns", "a jufti knot covers two cells of one yarn")
     second = (overlay.kinds == HALF) & ((overlay.seconds >= yarns) | (overlay.seconds == flat[cells]))
     _refuse(overlay, second, knots, "has no second yarn of its own", "another yarn of the list on its right warp")

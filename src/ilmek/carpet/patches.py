@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import BoolArray, Indices, Int32, Int64, UInt8
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.design import PART, bands
 from ilmek.num.compiled import compiled, embedded, uncounted
 from ilmek.num.threads import in_threads
@@ -46,7 +46,8 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
     yarn = knots[row, column]
     last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
     return bool(
-        (column == 0 or knots[row, column - 1] != yarn)
+        yarn != NO_KNOT
+        and (column == 0 or knots[row, column - 1] != yarn)
         and (column == last_column or knots[row, column + 1] != yarn)
         and (row == 0 or knots[row - 1, column] != yarn)
         and (row == last_row or knots[row + 1, column] != yarn)
@@ -56,9 +57,9 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
 
 @embedded
 def begins(knots: Indices, row: int, column: int) -> bool:
-    """Whether no earlier neighbour has the yarn of a knot."""
+    """Whether a cell has a knot, and no earlier neighbour its yarn."""
     yarn = knots[row, column]
-    if column > 0 and knots[row, column - 1] == yarn:
+    if yarn == NO_KNOT or (column > 0 and knots[row, column - 1] == yarn):
         return False
     if row == 0:
         return True

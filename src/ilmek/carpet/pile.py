@@ -23,8 +23,9 @@ Above 1 the yarn does not fit, even with the hardest beat-up [derived, by areas 
 n); a yarn of P strands then has the metric count Nm = P / (1000 mu).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from ilmek.carpet.cells import CellKind
 from ilmek.carpet.quality import Quality
 from ilmek.elements.carpet_yarns import YarnProperties, usual_warp
 from ilmek.elements.knot_kinds import parse_knot, wrap_of
@@ -78,6 +79,12 @@ def knot_length(
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = leg_length(warp, yarn, pile)
     return pile.calibration * (2 * leg + wrap_of(kind, form, quality.warp_pitch, (warp + yarn) / 2))
+
+
+def of_kind(pile: PileParams, kind: CellKind) -> PileParams:
+    """The pile of a kind of knots: its own height; a loop is not cut, and has no waste of knife and shears."""
+    height = pile.pile_height if kind.height is None else kind.height
+    return replace(pile, pile_height=height, cut_waste=0.0 if kind.loop else pile.cut_waste)
 
 
 def leg_length(warp_diameter: float, yarn_diameter: float, pile: PileParams) -> float:

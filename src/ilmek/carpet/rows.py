@@ -9,7 +9,7 @@ A cell of a row has a code, which says all about its knots [`ilmek.carpet.overla
     256 + y             the left or right half of a jufti knot of yarn y
     512 + 256 y + z     two half knots, yarn y on the left warp, yarn z on the right one
 
-A run is a longest part of a row with one code.
+A cell without a knot has NO_KNOT in the place of its yarn. A run is a longest part of a row with one code.
 """
 
 from collections.abc import Iterator
@@ -19,6 +19,7 @@ import numpy as np
 
 from ilmek.arrays import Int32
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.overlay import HALF, JUFTI
 
 SPLITS = ("runs", "colours")
@@ -107,6 +108,8 @@ def spans_by_yarn(runs: tuple[Run, ...]) -> dict[int, list[Span]]:
     """The knots of each yarn in a row, from left to right, the yarns in the order of the list."""
     found: dict[int, list[Span]] = {}
     for run in runs:
+        if run.yarn == NO_KNOT:
+            continue
         part = "L" if run.mark == HALF else "j" if run.mark == JUFTI else ""
         found.setdefault(run.yarn, []).append(Span(run.first, run.cells, part))
         if run.mark == HALF:

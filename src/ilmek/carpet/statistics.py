@@ -10,6 +10,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, Int64
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import bands
 from ilmek.carpet.patches import patch_sizes
 from ilmek.records import record
@@ -68,6 +69,8 @@ def changes_by_row(knots: Indices) -> Int64[np.ndarray, " rows"]:
     for band in bands(*knots.shape):
         part = knots[band]
         changes[band] = np.count_nonzero(part[:, 1:] != part[:, :-1], axis=1)
+        for row in np.flatnonzero((part == NO_KNOT).any(axis=1)).tolist():
+            changes[band.start + row] = np.count_nonzero(np.diff(part[row][part[row] != NO_KNOT]))
     return changes[::-1].copy()
 
 

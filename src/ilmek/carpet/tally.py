@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import Indices, IntArray
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.design import PART, bands
 from ilmek.carpet.patches import count_patches, is_lone
 from ilmek.num.compiled import uncounted
@@ -29,16 +29,25 @@ class Tally:
     lone: int
     small_patches: int
 
+    @property
+    def knots(self) -> int:
+        """Cells with a knot."""
+        return sum(self.counts)
+
 
 @uncounted
 def _count(knots: Indices, first: int, stop: int, counts: IntArray) -> tuple[int, int]:
     """Changes and lone knots of some rows; the knots of each yarn are added to `counts`."""
     changes, lone = 0, 0
     for row in range(first, stop):
+        before = knots[row, 0]
         for column in range(knots.shape[1]):
-            counts[knots[row, column]] += 1
-            changes += column > 0 and knots[row, column] != knots[row, column - 1]
+            yarn = knots[row, column]
+            counts[yarn] += 1
             lone += is_lone(knots, row, column)
+            if yarn != NO_KNOT:
+                changes += yarn != before != NO_KNOT
+                before = yarn
     return changes, lone
 
 

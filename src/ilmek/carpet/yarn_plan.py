@@ -15,6 +15,9 @@ from ilmek.units import format_number, mm, parse_quantity
 
 EURO = "EUR"
 
+OVERCAST = "overcast"
+"""The binding with pile yarn, turn beside turn."""
+
 PRICES = {"cotton": 8.0, "wool": 20.0, "silk": 120.0}
 """Prices of a kilogram of yarn by material [EUR]; round numbers assumed by this project."""
 
@@ -55,6 +58,15 @@ class YarnPlanParams(Params):
     end_length: float = kind.length(
         20 * mm, at_least=0.0, at_most=1.0, doc="flat-woven end before the first row and after the last"
     )
+    binding: str = kind.choice(
+        OVERCAST,
+        (OVERCAST, "tape", "none"),
+        doc="binding of the edge of a carpet with a shape: pile yarn, or a tape",
+    )
+    binding_width: float = kind.length(
+        8 * mm, at_least=1 * mm, at_most=100 * mm, doc="width of the hem that the binding covers"
+    )
+    binding_yarn: str | None = kind.text(None, doc="yarn of an overcast binding; default: that with the most knots")
     loom_waste: float = kind.length(400 * mm, at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
     currency: str = kind.text(EURO, doc="currency of all prices, those of the yarn list too")
     pile_price: float | None = kind.ratio(

@@ -42,6 +42,8 @@ main = LazyGroup(
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
         "studio": ("ilmek.cli.studio", "Open a project in the browser: carpet, machines, linkages and loom."),
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
+        "order": ("ilmek.cli.order", "Work a customer's order: quotation, approval, workshop folders, records."),
+        "verify": ("ilmek.cli.verify", "Verify the record of a carpet, or the code of its label."),
         "simulate": ("ilmek.cli.simulate", "Weave a programme in time: stops, utilisation, when it is done."),
         "run": ("ilmek.cli.run", "Weave a loom programme on the simulated loom, with a journal."),
         "serve": ("ilmek.cli.serve", "Weave a loom programme as `run` does, with an OPC UA server beside it."),

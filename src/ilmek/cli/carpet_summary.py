@@ -13,7 +13,8 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
     chart, made, bill = charted.chart, charted.chart.reading, charted.bill
     return [
         ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
-        ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
+        ("knots", knots_in_words(chart)),
+        *([] if chart.cells is None else [("cells", cells_in_words(charted))]),
         ("read as", f"{made.kind}: {made.reason}"),
         ("fit", made.fit.words),
         ("changes", changes_in_words(chart)),
@@ -23,6 +24,21 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
         ("carpet mass", mass_in_words(bill)),
         ("to buy", to_buy_in_words(charted)),
     ]
+
+
+def knots_in_words(chart: Chart) -> str:
+    """The knots of a chart, and its grid."""
+    across = counted(chart.columns, "cell") if chart.tally().knots < chart.knots.size else str(chart.columns)
+    return f"{chart.tally().knots:,} ({chart.rows} rows of {across})"
+
+
+def cells_in_words(charted: ChartResult) -> str:
+    """The cells of each kind, and the edge of a shape."""
+    cells, bill = charted.chart.cells, charted.bill
+    assert cells is not None
+    kinds = ", ".join(f"{kind} {count:,}" for kind, count in zip(cells.kinds, cells.counts, strict=True))
+    bound = f"; {format_quantity(bill.area, 'm^2')}, edge of {format_quantity(bill.edge, 'm')} to bind"
+    return kinds + (bound if bill.edge else "")
 
 
 def overlay_in_words(chart: Chart) -> str:

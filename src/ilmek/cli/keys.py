@@ -5,6 +5,7 @@ import importlib.util
 import os
 import select
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -36,29 +37,41 @@ _KEYS = {
     **dict.fromkeys(b"qQ\x04", "quit"),
 }
 
+_OF_PEDAL = {**dict.fromkeys(b"bcBC", "next"), **dict.fromkeys(b"aA", "back")}
+_PAGES = {"row": "next", "row before": "back"}
+"""What a foot switch means: a, b, c of one with three pedals, and the page keys of one that turns pages."""
+
+_HELD = 0.7
+"""Time in which a pedal that is pressed again counts as held down [s]: longer than the delay of repeated keys."""
+
 _INTERVAL = 0.5
 """Interval in which the mode of the terminal is set again [s]: a shell that stopped the command has changed it."""
 
 
-def keys_of(data: bytes) -> Iterator[str]:
+def keys_of(data: bytes, *, pedal: bool = False) -> Iterator[str]:
     r"""The meanings of the bytes that keys send; others have none.
+
+    pedal  a foot switch sends them: no key leaves the row
 
     >>> list(keys_of(b" \x1b[Db\x1b[6~xq"))
     ['next', 'back', 'back', 'row', 'quit']
+    >>> list(keys_of(b"abc\x1b[5~", pedal=True))
+    ['back', 'next', 'next', 'back']
     """
     at = 0
     while at < len(data):
         length = next((length for length in (4, 3) if data[at : at + length] in _SEQUENCES), 0)
         if length:
-            yield _SEQUENCES[data[at : at + length]]
-        elif data[at] in _KEYS:
-            yield _KEYS[data[at]]
+            key = _SEQUENCES[data[at : at + length]]
+            yield _PAGES.get(key, key) if pedal else key
+        elif data[at] in (keys := {**_KEYS, **_OF_PEDAL} if pedal else _KEYS):
+            yield keys[data[at]]
         at += length or 1
 
 
-def pressed_keys() -> Iterator[str]:
-    """The keys until the end of the input."""
-    number = sys.stdin.fileno()
+def pressed_keys(*, pedal: bool = False) -> Iterator[str]:
+    """The keys until the end of the input; of a foot switch, a pedal that is held down counts once."""
+    number, last, pressed = sys.stdin.fileno(), -_HELD, ""
     with _each_key_at_once(number) as again:
         while True:
             while again is not None and not select.select([number], [], [], _INTERVAL)[0]:
@@ -66,7 +79,12 @@ def pressed_keys() -> Iterator[str]:
             data = os.read(number, 64)
             if not data:
                 return
-            yield from keys_of(data)
+            for key in keys_of(data, pedal=pedal):
+                now, before = time.monotonic(), pressed
+                held = pedal and key == before and now - last < _HELD
+                last, pressed = now, key
+                if not held:
+                    yield key
 
 
 @contextmanager

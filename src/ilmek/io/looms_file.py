@@ -26,6 +26,15 @@
     doffing = "90min"
     available = 2026-12-02
 
+    [[loom]]
+    name = "bench"                              # a frame at which weavers tie; nothing of it is designed
+    weavers = 3
+    width = "2.4m"                              # widest carpet
+    knots_a_day = 8000                          # that a weaver ties in 8 h
+    cost = "1.5 EUR/h"                          # without wages, where the orders have a wage by knots
+    dressing = "20h"
+    doffing = "3h"
+
     [[yarn]]
     name = "madder red"
     stock = "8kg"
@@ -47,6 +56,7 @@ from ilmek.errors import ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.schema import SourceText, shown
+from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.params import Setting
 from ilmek.units import day, minute
 
@@ -87,9 +97,19 @@ class ShiftEntry:
 
 
 @dataclass(frozen=True, slots=True)
+class WeaversLoom:
+    """A frame at which weavers tie: their number, the widest carpet [m], and knots of a weaver in a second of work."""
+
+    weavers: int
+    width: float
+    knots: float
+
+
+@dataclass(frozen=True, slots=True)
 class LoomEntry:
     """A loom: its file, or the parameters of its design; times [s], cost [currency/s], share of its time lost.
 
+    hand       a frame at which weavers tie, in the place of both
     available  from when on; None: from the begin of the plan      where  file and line, for messages
     """
 
@@ -104,6 +124,7 @@ class LoomEntry:
     doffing: float
     available: datetime | None
     where: str
+    hand: WeaversLoom | None = None
 
     def __hash__(self) -> int:
         return hash((self.name, self.where))
@@ -199,14 +220,15 @@ def _days(row: FactoryEntry) -> frozenset[int]:
 
 
 _LOOM_KEYS = (
-    "name", "file", "design", "shifts", "cost", "stops", "dressing", "dressing_same", "doffing", "available",
+    "name", "file", "design", "weavers", "width", "knots_a_day",
+    "shifts", "cost", "stops", "dressing", "dressing_same", "doffing", "available",
 )  # fmt: skip
 
 
 def _loom(row: FactoryEntry, path: Path, currency: str, shifts: tuple[ShiftEntry, ...]) -> LoomEntry:
     row.keys(*_LOOM_KEYS, needs=("name", "cost", "dressing", "doffing"))
-    if row.has("file") == row.has("design"):
-        row.refuse(ParameterError("has both or neither of file and design", allowed="one of them"))
+    if sum(map(row.has, ("file", "design", "weavers"))) != 1:
+        row.refuse(ParameterError("is of none or of several of file, design and weavers", allowed="one of them"))
     file = None
     if row.has("file"):
         try:
@@ -233,7 +255,22 @@ def _loom(row: FactoryEntry, path: Path, currency: str, shifts: tuple[ShiftEntry
         _minutes(row.measured("doffing", "h", most=LONGEST_WORK)),
         row.instant("available") if row.has("available") else None,
         f"{path}, line {line}",
+        _hand(row),
     )
+
+
+def _hand(row: FactoryEntry) -> WeaversLoom | None:
+    rates = CostRates()
+    for key in ("width", "knots_a_day"):
+        if row.has(key) and not row.has("weavers"):
+            row.refuse(ParameterError(f"{key} of a loom that is designed", do="it follows from its design"), key)
+    if not row.has("weavers"):
+        return None
+    width = row.measured("width", "m", most=20.0)
+    if width <= 0:
+        row.refuse(ParameterError("no carpet is so narrow", allowed="above 0"), "width")
+    knots = row.count("knots_a_day", round(rates.weaver_knots), 1, 1_000_000)
+    return WeaversLoom(row.count("weavers", 1, 1, 100), width, knots / rates.weaver_day)
 
 
 def _minutes(seconds: float) -> float:

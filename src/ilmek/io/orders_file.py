@@ -17,21 +17,28 @@
     name = "Runner"
     programme = "runner/programme.ilmek"        # for the loom that it was compiled for
 
+An order in several `sizes`, or in several colourways, is one of each size in each colourway, named after them. What
+only a customer's order has, `customer`, `looms`, and the terms of `order_terms`, changes no plan.
+
 Files are named relative to the folder of the orders and lie in it.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 
+from ilmek.carpet.colourways import Colourway
+from ilmek.carpet.price_rules import PriceRules, WageRules
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import IlmekError, ParameterError, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
+from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, read_wage
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import WOOL
 from ilmek.params import Parameter, Setting
+from ilmek.sentences import DEFAULT, LANGUAGES, WEAVERS
 
 MOST_ORDERS = 500
 """Largest number of orders of a file, and of carpets in all of them."""
@@ -39,7 +46,7 @@ MOST_ORDERS = 500
 MOST_PRIORITY = 100
 
 ORDER_KEYS = ("name", "picture", "programme", "quantity", "due", "earliest", "late", "priority")
-CARPET_KEYS = ("size", "quality", "knot", "yarns")
+CARPET_KEYS = ("size", "sizes", "quality", "knot", "yarns", "colourway")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +56,7 @@ class FactoryOrder:
     picture, programme  its file: one of them
     carpet    size, quality, knot as texts, and settings of a carpet by name      yarns  yarn list
     late      cost of a day of delay of one carpet, times the priority [currency/s]
+    design    name of its order in the file, of which it is one size in one colourway
     where     file and line, for messages
     """
 
@@ -63,6 +71,8 @@ class FactoryOrder:
     carpet: Mapping[str, Setting] = field(default_factory=dict)
     yarns: Path | None = None
     where: str = ""
+    design: str = ""
+    colourway: Colourway | None = None
 
     def __hash__(self) -> int:
         return hash((self.name, self.where))
@@ -70,12 +80,22 @@ class FactoryOrder:
 
 @dataclass(frozen=True, slots=True)
 class FactoryOrders:
-    """The orders of a file: begin of the plan, currency, orders."""
+    """The orders of a file: begin of the plan, currency, orders, and the terms of a customer's order.
+
+    customer  reference of the customer; ""      looms  the factory's file, or None
+    language, workshop_language  of the customer's papers, and of the weavers'
+    """
 
     path: Path
     start: datetime
     currency: str
     orders: tuple[FactoryOrder, ...]
+    customer: str = ""
+    looms: Path | None = None
+    price: PriceRules = PriceRules()
+    wage: WageRules | None = None
+    language: str = DEFAULT
+    workshop_language: str = DEFAULT
 
 
 def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
@@ -90,24 +110,43 @@ def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrder
 
 
 def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
-    root.keys("start", "currency", "late", "order", needs=("start", "order"))
+    terms = ("customer", "looms", "price", "wage", "language", "workshop_language")
+    root.keys("start", "currency", "late", "order", *terms, needs=("start", "order"))
     currency, start = root.currency(EURO), root.instant("start")
     late = root.money("late", currency, "d")
     rows = root.rows("order")
     if not 1 <= len(rows) <= MOST_ORDERS:
         root.refuse(ParameterError(f"has {len(rows)} orders", allowed=f"1 to {MOST_ORDERS}"), "order")
     read = _OrderReader(path, start, currency, late, parameters)
-    orders = tuple(read.order(row) for row in rows)
-    names: dict[str, int] = {}
-    for index, order in enumerate(orders):
-        if names.setdefault(order.name, index) != index:
-            rows[index].refuse(
-                ParameterError(f"two orders are named {order.name!r}", do="give each its own name"), "name"
-            )
+    orders, names = list[FactoryOrder](), set[str]()
+    for row in rows:
+        for order in read.orders(row):
+            if order.name in names:
+                row.refuse(ParameterError(f"two orders are named {order.name!r}", do="give each its own name"), "name")
+            names.add(order.name)
+            orders.append(order)
     carpets = sum(order.quantity for order in orders)
     if carpets > MOST_ORDERS:
         root.refuse(ParameterError(f"has {carpets:,} carpets", allowed=f"at most {MOST_ORDERS}"), "order")
-    return FactoryOrders(path, start, currency, orders)
+    return FactoryOrders(
+        path,
+        start,
+        currency,
+        tuple(orders),
+        root.label("customer") if root.has("customer") else "",
+        read.file(root, "looms"),
+        read_price(root, currency),
+        read_wage(root, currency),
+        _language(root, "language", LANGUAGES),
+        _language(root, "workshop_language", WEAVERS),
+    )
+
+
+def _language(root: FactoryEntry, key: str, known: Mapping[str, object]) -> str:
+    text = root.text(key, DEFAULT)
+    if text not in known:
+        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(known)), key)
+    return text
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,18 +159,51 @@ class _OrderReader:
     late: float | None
     parameters: Mapping[str, Parameter]
 
+    def orders(self, row: FactoryEntry) -> Iterator[FactoryOrder]:
+        """An order of each size in each colourway."""
+        order = self.order(row)
+        for size in self._sizes(row):
+            sized = replace(order, carpet={**order.carpet, **({} if size is None else {"size": size})})
+            named = order.name if size is None else f"{order.name}, {size}"
+            colourways = read_colourways(row)
+            if not colourways:
+                yield replace(sized, name=named)
+            for own, colourway in colourways:
+                yield replace(
+                    sized,
+                    name=f"{named}, {colourway.name}",
+                    quantity=own.count("quantity", order.quantity, 1, MOST_ORDERS),
+                    yarns=self._yarns(own) or order.yarns,
+                    where=f"{self.path}, line {own.source.lines.get(own.path, 1)}",
+                    colourway=colourway,
+                )
+
+    def _sizes(self, row: FactoryEntry) -> Sequence[str | None]:
+        if not row.has("sizes"):
+            return (None,)
+        sizes = row.data["sizes"]
+        fits = isinstance(sizes, list) and 1 <= len(sizes) <= MOST_COLOURWAYS and all(isinstance(s, str) for s in sizes)
+        if not fits or row.has("size"):
+            allowed = f'a list of 1 to {MOST_COLOURWAYS} sizes, like ["80x120cm"], without size'
+            row.refuse(ParameterError(f"{shown(sizes)} are no sizes", allowed=allowed), "sizes")
+        return tuple(sizes)
+
+    def _yarns(self, row: FactoryEntry) -> Path | None:
+        return Path(WOOL) if row.data.get("yarns") == WOOL else self.file(row, "yarns")
+
     def order(self, row: FactoryEntry) -> FactoryOrder:
+        """The order of a table, without sizes and colourways."""
         row.keys(*ORDER_KEYS, *CARPET_KEYS, *self.parameters, needs=("name", "due"))
         if row.has("picture") == row.has("programme"):
             given = "has both picture and programme" if row.has("picture") else "has neither picture nor programme"
             row.refuse(ParameterError(given, do="give one of the two"))
-        programme = self._file(row, "programme")
+        programme = self.file(row, "programme")
         for key in (*CARPET_KEYS, *self.parameters):
             if programme is not None and row.has(key):
                 row.refuse(ParameterError(f"{key} of a programme cannot be set", do=f"leave {key} out"), key)
         return FactoryOrder(
             row.label("name"),
-            self._file(row, "picture"),
+            self.file(row, "picture"),
             programme,
             row.count("quantity", 1, 1, MOST_ORDERS),
             max(row.instant("earliest", self.start), self.start),
@@ -139,8 +211,9 @@ class _OrderReader:
             self._late(row),
             row.count("priority", 1, 1, MOST_PRIORITY),
             {} if programme is not None else _settings(row, self.parameters),
-            Path(WOOL) if row.data.get("yarns") == WOOL else self._file(row, "yarns"),
+            self._yarns(row),
             f"{self.path}, line {row.source.lines.get(row.path, 1)}",
+            row.label("name"),
         )
 
     def _late(self, row: FactoryEntry) -> float:
@@ -151,7 +224,8 @@ class _OrderReader:
             row.refuse(ParameterError("has no cost of delay", do=do))
         return cost
 
-    def _file(self, row: FactoryEntry, key: str) -> Path | None:
+    def file(self, row: FactoryEntry, key: str) -> Path | None:
+        """The file of a key in the folder of the orders; None where it is missing."""
         if not row.has(key):
             return None
         try:

@@ -25,7 +25,7 @@ from ilmek.io.programme_rows import change_records, packed, packed_row, read_sto
 from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
 from ilmek.loom.account import HeadWork, ProgrammeAccount, stop_duration
 from ilmek.loom.explicit import programme_digest
-from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
+from ilmek.loom.operations import EMPTY, LoomProgramme, LoomSetup, RowOperations, Stop
 from ilmek.progress import SILENT, Progress
 
 APPLICATION, VERSION = 0x696C6D6B, 3
@@ -190,7 +190,7 @@ class ProgrammeFile(Closable):
             raise self._damaged(f"row {number} of the chart is missing")
         raw = unpacked(stored[0], self.setup.columns)
         line: UInt8[np.ndarray, " columns"] = np.frombuffer(raw or b"", np.uint8)
-        if len(line) != self.setup.columns or line.max() >= len(self.setup.yarns):
+        if len(line) != self.setup.columns or line.max(initial=0, where=line != EMPTY) >= len(self.setup.yarns):
             raise self._damaged(f"row {number} of the chart is damaged")
         return line
 
@@ -241,7 +241,7 @@ class _Reading:
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """A row of the chart, counted."""
         line = self._file.chart_row(number)
-        self.counts += np.bincount(line, minlength=len(self.counts))
+        self.counts += np.bincount(line[line != EMPTY], minlength=len(self.counts))
         return line
 
 

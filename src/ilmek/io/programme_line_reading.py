@@ -9,6 +9,7 @@ import numpy as np
 
 from ilmek.arrays import Int32, Int64, IntArray, UInt8
 from ilmek.io.programme_rows import MOST_ENDS
+from ilmek.loom.operations import EMPTY
 from ilmek.num.compiled import compiled
 
 PATTERNS = (
@@ -179,7 +180,7 @@ def _knots_of(line: IntArray) -> int:
 def _fill_chart(
     text: UInt8[np.ndarray, " bytes"], span: tuple[int, int], chart: UInt8[np.ndarray, " columns"], at: int, yarns: int
 ) -> int:
-    """Fill a chart from a column on by runs `knots*yarn`; returns the next column, -1 for a faulty text."""
+    """Fill a chart from a column on by runs `knots*yarn`, 0: no knot; returns the next column, -1 for a faulty text."""
     begin, end = span
     while True:
         knots, digits = _number(text, begin, end)
@@ -187,9 +188,11 @@ def _fill_chart(
         if digits == 0 or begin >= end or text[begin] != _STAR or at + knots > chart.shape[0]:
             return -1
         yarn, digits = _number(text, begin + 1, end)
+        if digits == 0 and begin + 1 < end and text[begin + 1] == _ZERO:
+            digits = 1
         if digits == 0 or yarn > yarns:
             return -1
-        chart[at : at + knots] = yarn - 1
+        chart[at : at + knots] = EMPTY if yarn == 0 else yarn - 1
         at += knots
         begin += 1 + digits
         if begin == end:

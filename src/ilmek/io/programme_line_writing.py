@@ -3,6 +3,7 @@
 import numpy as np
 
 from ilmek.arrays import IntArray, UInt8
+from ilmek.loom.operations import EMPTY
 from ilmek.num.compiled import compiled
 
 _NEWLINE, _ZERO, _STAR, _SPACE = 10, 48, 42, 32
@@ -33,7 +34,7 @@ def write_chart(chart: UInt8[np.ndarray, " columns"], out: UInt8[np.ndarray, " b
             at += 1
         at = _put_number(out, at, column - begin)
         out[at] = _STAR
-        at = _put_number(out, at + 1, int(np.int64(chart[begin])) + 1)
+        at = _put_number(out, at + 1, 0 if chart[begin] == EMPTY else int(np.int64(chart[begin])) + 1)
         runs += 1
         begin = column
         if runs % RUNS_IN_A_LINE == 0 or column == chart.shape[0]:

@@ -50,13 +50,15 @@ _SAME = 1e-9
 """Least share of a turn by which an actuator revolves."""
 
 _DIGEST = re.compile(r"[0-9a-f]{64}")
-KEYS = ("digest", *(field.name for field in fields(LoomSetup)))
+OPTIONAL = ("row_knots",)
+KEYS = ("digest", *(field.name for field in fields(LoomSetup) if field.name not in OPTIONAL))
 _SEGMENT = ("name", "start", "end", "begin", "finish")
 
 
 def meta_texts(setup: LoomSetup, digest: str) -> dict[str, str]:
     """The description as JSON texts by key. Raises an IlmekError for a setup that would be refused when it is read."""
-    data = {field.name: _plain(getattr(setup, field.name)) for field in fields(setup)}
+    data = {field.name: _plain(getattr(setup, field.name)) for field in fields(setup) if field.name not in OPTIONAL}
+    data |= {} if setup.row_knots is None else {"row_knots": list(setup.row_knots)}
     data |= {"digest": digest, "cyclograms": [_cyclogram_record(cyclogram) for cyclogram in setup.cyclograms]}
     texts = {key: json.dumps(value) for key, value in data.items()}
     read_meta(texts)
@@ -74,9 +76,9 @@ def _plain(value: Any) -> Any:
 
 def read_meta(texts: Mapping[str, str]) -> tuple[LoomSetup, str]:
     """Setup and digest from JSON texts by key, checked. Raises an IlmekError for the first fault, naming its key."""
-    if set(texts) != set(KEYS):
+    if set(texts) - set(OPTIONAL) != set(KEYS):
         raise LoomError("the description has other keys", allowed=", ".join(KEYS))
-    entries = {key: MetaEntry(key, _parsed(key, texts[key])) for key in KEYS}
+    entries = {key: MetaEntry(key, _parsed(key, text)) for key, text in texts.items()}
     rows, columns = (entries[key].whole(1, MOST_PER_SIDE) for key in ("rows", "columns"))
     if rows * columns > MOST_KNOTS:
         raise LoomError(f"{columns} x {rows} knots", allowed=f"at most {MOST_KNOTS // 1_000_000} million")
@@ -100,6 +102,7 @@ def read_meta(texts: Mapping[str, str]) -> tuple[LoomSetup, str]:
         knot_yarn=tuple(row.number(0.0, LONGEST_KNOT) for row in entries["knot_yarn"].rows(len(yarns), len(yarns))),
         wefts=_bobbins(entries["wefts"]),
         cyclograms=_CyclogramReader().cyclograms(entries["cyclograms"]),
+        row_knots=tuple(entries["row_knots"].wholes(rows, columns).tolist()) if "row_knots" in entries else None,
     )
     return setup, _digest(entries["digest"])
 

@@ -4,7 +4,7 @@
     loom "…"                 the description, as JSON: a line for each key, of a list a line for each entry
     …
     row 1                    rows from the carpet's bottom edge, and all else from 1
-    chart 12*3 4*1           12 knots of yarn 3, 4 of yarn 1
+    chart 12*3 4*1 5*0       12 knots of yarn 3, 4 of yarn 1, 5 cells without a knot
     phase 1
     head 1
     tie 1..12 tube 3
@@ -26,7 +26,7 @@ import numpy as np
 from ilmek.arrays import UInt8
 from ilmek.errors import IlmekError, LoomError, shortened
 from ilmek.io.closable import Closable
-from ilmek.io.programme_meta import KEYS, meta_texts, read_meta
+from ilmek.io.programme_meta import KEYS, OPTIONAL, meta_texts, read_meta
 from ilmek.io.programme_text_rows import LineRemark, RowReader, RowText, RowWriter
 from ilmek.io.regular_file import open_regular
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
@@ -49,6 +49,7 @@ MOST_REMARKS = 1000
 _FIRST = b"ilmek programme "
 _LISTS = ("yarns", "loading", "packages", "wefts", "cyclograms")
 _KEYS = tuple(key for key in KEYS if key != "digest")
+_ALL = (*_KEYS, *OPTIONAL)
 _ENTRY = re.compile(r"(\w+)(?:\[(\d+)\])?")
 _NO_DIGEST = json.dumps("0" * 64)
 _KNOT_BYTES = 120
@@ -78,7 +79,7 @@ def header_lines(setup: LoomSetup) -> Iterator[str]:
     """The lines of the description. Raises an IlmekError for a setup that would be refused when it is read."""
     yield f"{_FIRST.decode()}{VERSION}"
     texts = meta_texts(setup, "0" * 64)
-    for key in _KEYS:
+    for key in (key for key in _ALL if key in texts):
         values = json.loads(texts[key]) if key in _LISTS else [json.loads(texts[key])]
         values = [[(yarn + 1) % (EMPTY + 1) for yarn in head] for head in values] if key == "loading" else values
         yield from (f"{key} {json.dumps(value, ensure_ascii=False)}" for value in values)
@@ -214,7 +215,11 @@ def _read_header(file: BinaryIO) -> tuple[dict[str, str], dict[str, int], int]:
         if data.startswith(b"row "):
             file.seek(begin)
             _require_keys(found)
-            texts = {key: f"[{','.join(found.get(key, ()))}]" if key in _LISTS else found[key][0] for key in _KEYS}
+            texts = {
+                key: f"[{','.join(found.get(key, ()))}]" if key in _LISTS else found[key][0]
+                for key in _ALL
+                if key in _KEYS or key in found
+            }
             return texts | {"digest": _NO_DIGEST}, lines, line
         key, value = _entry(data, line)
         if key in found and key not in _LISTS:
@@ -238,7 +243,7 @@ def _entry(data: bytes, line: int) -> tuple[str, str]:
     try:
         text = data.decode()
         key, blank, value = text.removesuffix("\n").partition(" ")
-        if not text.endswith("\n") or not blank or key not in _KEYS:
+        if not text.endswith("\n") or not blank or key not in _ALL:
             given = shortened(text[:200].strip().encode("ascii", "backslashreplace").decode())
             raise LoomError(f"line {line}: `{given}` is no line of the description", allowed=", ".join((*_KEYS, "row")))
         found = json.loads(value)

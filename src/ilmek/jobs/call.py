@@ -7,6 +7,7 @@ from ilmek.carpet.calling import CallStep, row_steps
 from ilmek.carpet.chart import Chart
 from ilmek.errors import ParameterError
 from ilmek.io.call_state import CallState, DamagedStateError, read_state, state_file, write_state
+from ilmek.sentences import Sentence
 
 DIRECTIONS = ("right", "left", "alternate")
 
@@ -109,10 +110,10 @@ def begin_calling(chart: Chart, by: str, direction: str, from_row: int | None = 
 def _resume(calling: Calling, state: CallState) -> None:
     """Go to where a call of the chart stopped."""
     if state.row > calling.chart.rows:
-        calling.notes.append("all rows were called: the call begins with row 1")
+        calling.notes.append(Sentence("call.again"))
         return
     calling.row = state.row
     if (state.by, state.direction) == (calling.by, calling.direction) and state.step < len(calling.steps):
         calling.step = state.step
     if (calling.row, calling.step) != (1, 0):
-        calling.notes.append(f"goes on at row {calling.row}, step {calling.step + 1}; --from-row 1 begins anew")
+        calling.notes.append(Sentence("call.goes-on", row=calling.row, step=calling.step + 1))

@@ -8,6 +8,7 @@ from ilmek.carpet.rows import DIRECTIONS, SPLITS
 from ilmek.io.chart.formats import FORMATS, ChartFormat
 from ilmek.io.chart.printing import DIGITS
 from ilmek.params import Params, kind, param
+from ilmek.sentences import DEFAULT, WEAVERS
 from ilmek.viz.carpet_picture import NARROWEST, WIDEST
 from ilmek.viz.page_parts import FileNote
 
@@ -52,10 +53,16 @@ class _FileParams(Params):
         choices=DIRECTIONS,
         doc="direction in which rows are read: to the right, to the left, both, or odd rows right and even rows left",
     )
-    digits: str = param(
-        "latin",
+    lang: str = param(
+        DEFAULT,
+        choices=tuple(WEAVERS),
+        doc="language of chart.pdf, rows.pdf, wall.pdf and rows.txt: English, Turkish, Persian, Arabic, Urdu, Hindi, "
+        "Nepali",
+    )
+    digits: str | None = param(
+        None,
         choices=tuple(DIGITS),
-        doc="digits of the numbers on chart.pdf, rows.pdf and wall.pdf: latin, Persian and Urdu (fa), or Arabic (ar)",
+        doc="digits of the numbers on chart.pdf, rows.pdf and wall.pdf; default: those of --lang",
     )
     wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
 

@@ -29,6 +29,7 @@ from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrd
 from ilmek.jobs.paper import PAPER_PAGE, paper_checks, paper_files, paper_notes, paper_results
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
+from ilmek.jobs.shaping import with_shape
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.jobs.yarn_choice import (
     PROPOSED,
@@ -101,7 +102,8 @@ class ChartResult:
     def printing(self) -> Printing:
         """What the printed files have besides the chart."""
         ground = self.order.order.plan.ground(self.ground)
-        return Printing(self.order.order.files.digits, self.bill, mounting(self.chart, ground))
+        files = self.order.order.files
+        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang)
 
     @property
     def thickest(self) -> Yarn:
@@ -183,7 +185,7 @@ def make_charted(
     with_source  keep the fitted picture, made small, for a page      stages  default: every stage is made anew
     """
     charted_by = chart_of_order if order.recipe is None else chart_of_recipe
-    made = charted_by(order, progress, with_source=with_source, stages=stages)
+    made = with_shape(charted_by(order, progress, with_source=with_source, stages=stages), order)
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
@@ -205,7 +207,7 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
     return {
         "rows": chart.rows,
         "columns": chart.columns,
-        "knots": chart.rows * chart.columns,
+        "knots": chart.tally().knots,
         "colours": chart.colours,
         "reading": reading.kind,
         "changed_knots": reading.changed,
@@ -227,7 +229,7 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
         "yarn_index": [chart.positions[yarn] for yarn in chart.used],
         "ground": [_need(need) for need in bill.ground],
         "pile_mass": bill.pile_mass,
-        "pile_mass_per_area": bill.pile_mass / chart.size.area,
+        "pile_mass_per_area": bill.pile_mass / bill.area,
         "yarn_mass": bill.mass,
         "pile_height": charted.pile.pile_height,
         "mass_per_area": bill.mass_per_area,

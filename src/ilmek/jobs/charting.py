@@ -5,8 +5,6 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.creel import in_creel_order
@@ -35,7 +33,7 @@ from ilmek.units import counted
 SHOWN = 1000
 """Largest side of the picture that a page shows [pixels]."""
 
-_OF_THE_KNOTS = tuple(group for group in GROUPS if group not in ("plan", "files"))
+_OF_THE_KNOTS = tuple(group for group in GROUPS if group not in ("shape", "plan", "files"))
 """Groups of parameters that act on the knots; the others act on the yarn or the files alone."""
 
 
@@ -289,7 +287,7 @@ def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
 
 def drawn_chart(chart: Chart) -> Rgb:
     """The picture of a chart: each knot one pixel in the colour of its yarn."""
-    colours: Rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
+    colours: Rgb = chart.colour_table[chart.knots]
     return colours
 
 

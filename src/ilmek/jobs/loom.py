@@ -6,7 +6,8 @@ from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
-from ilmek.carpet.pile import knot_length
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.pile import knot_length, of_kind
 from ilmek.carpet.recipe.edits import located
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.recipe_file import LoomKeys
@@ -23,7 +24,7 @@ from ilmek.jobs.existing_loom import (
     row_pitch_left,
     yarns_on,
 )
-from ilmek.jobs.loom_setup import CarpetPile, loom_setup
+from ilmek.jobs.loom_setup import CarpetPile, knots_saved, loom_setup
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
@@ -238,9 +239,9 @@ def make_loomed(
     try:
         carpet = CarpetPile(chart, knot_yarns(charted))
         if (by_hand := MACHINE.variant(params)) is not None:
-            return _by_hand(*by_hand, illustrated=illustrated, assembled=assembled)
+            return _by_hand(*by_hand, chart, illustrated=illustrated, assembled=assembled)
         if params.knotting == HAND:
-            return _for_weavers(params, reported, progress, assembled=assembled)
+            return _for_weavers(params, chart, reported, progress, assembled=assembled)
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
         if assembled:
             made = MACHINE.with_room(made, replace(params, heads=made.heads))
@@ -263,24 +264,30 @@ def make_loomed(
     return LoomResult(report, checks, made, programme, setup, left, programme.duration)
 
 
-def _by_hand(machine: AnyComponent, params: Params, *, illustrated: bool, assembled: bool) -> LoomResult:
+def _by_hand(machine: AnyComponent, params: Params, chart: Chart, *, illustrated: bool, assembled: bool) -> LoomResult:
     """The hand loom: its report has the check of the deadline."""
     loom: HandLoom = machine.designed(params)
     report = machine.report(loom, illustrated=illustrated, assembled=assembled)
     time, left = loom.rows * loom.row_time, float(loom.beat.row_pitch_left)
+    time -= knots_saved(chart, loom.weavers) * loom.params.hand_knot
     note = NO_DRIVES if loom.drive is None else BEATS_ALONE
     return LoomResult(report, (), hand=loom, row_pitch_left=left, weaving_time=time, notes=(note,))
 
 
 def _for_weavers(
-    params: AutomatedLoomParams, reported: Callable[[LoomDesign], Report], progress: Progress, *, assembled: bool
+    params: AutomatedLoomParams,
+    chart: Chart,
+    reported: Callable[[LoomDesign], Report],
+    progress: Progress,
+    *,
+    assembled: bool,
 ) -> LoomResult:
     """The loom at which weavers tie; the check of its deadline says how many it needs."""
     made = design(params)
     if assembled:
         made = MACHINE.with_room(made, params)
     report = with_nearest(reported(made), params, progress)
-    left, time = made.beat.row_pitch_left, estimated_time(made)
+    left, time = made.beat.row_pitch_left, estimated_time(made) - knots_saved(chart, made.weavers) * made.times.knot
     return LoomResult(report, (), made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
 
 
@@ -295,6 +302,7 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
         return LoomResult(existing.report, checks, made, row_pitch_left=left)
     if made.weavers:
         time = made.head.least_time(chart.rows, chart.columns, made.weavers, made.times, made.bobbins)
+        time -= knots_saved(chart, made.weavers) * made.times.knot
         checks = (*checks, *deadline_checks(loom_order.deadline, time))
         return LoomResult(existing.report, checks, made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
@@ -336,7 +344,7 @@ def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomPara
         yarns=replace(loom_order.params.yarns, pile_density=heaviest),
         colours=chart.colours,
         knot_yarn=yarn_of_a_knot(charted),
-        pile_height=charted.pile.pile_height,
+        pile_height=max(of_kind(charted.pile, kind).pile_height for kind, _ in chart.tied_by_kind),
         changes_per_knot=min(1.0, chart.changes_per_knot),
     )
 

@@ -4,7 +4,10 @@ import hashlib
 import json
 import math
 
+import numpy as np
+
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.loom.operations import LoomSetup, OperationTimes
 from ilmek.loom.programme import Programme
 from ilmek.loom.tube_plan import YarnSupply
@@ -35,6 +38,19 @@ class CarpetPile:
         return YarnSupply(params.head_tubes, packages, self.knot_yarns)
 
 
+def _row_knots(chart: Chart) -> tuple[int, ...]:
+    """Knots of each row, from the bottom edge."""
+    return tuple(np.count_nonzero(chart.knots[::-1] != NO_KNOT, axis=1).tolist())
+
+
+def knots_saved(chart: Chart, weavers: int) -> int:
+    """Knots in turn that a number of weavers has less than with one in every cell: a row is shared evenly."""
+    if chart.cells is None:
+        return 0
+    knots = np.array(_row_knots(chart))
+    return int((-(-chart.columns // weavers) - -(-knots // weavers)).sum())
+
+
 def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> LoomSetup:
     """The setup of a carpet's programme on a loom."""
     params, times, chart = made.params, made.times, carpet.chart
@@ -58,4 +74,5 @@ def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> Lo
         knot_yarn=carpet.knot_yarns,
         wefts=programme.bobbins,
         cyclograms=made.cyclograms,
+        row_knots=None if chart.tally().knots == chart.knots.size else _row_knots(chart),
     )

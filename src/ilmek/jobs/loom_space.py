@@ -45,16 +45,16 @@ def scene_answer(made: Scene, chart: Chart | None, *, most: int | None = None) -
     """
     data = scene_data(made)
     knots = np.zeros((0, 0), np.uint8)
-    if chart is not None and len(chart.yarns) <= np.iinfo(np.uint8).max + 1:
+    if chart is not None and len(chart.shades) <= np.iinfo(np.uint8).max + 1:
         every = 1 if most is None else max(1, int(np.ceil(np.sqrt(chart.knots.size / most))))
-        knots = np.ascontiguousarray(chart.knots[::every, ::every]).astype(np.uint8)
+        knots = np.ascontiguousarray(chart.shaded[::every, ::every]).astype(np.uint8)
     shown: dict[str, Json] | None = None
     if chart is not None and knots.size:
         shown = {
             "rows": knots.shape[0],
             "columns": knots.shape[1],
-            "colours": [yarn.hex for yarn in chart.yarns],
-            "yarns": [yarn.name for yarn in chart.yarns],
+            "colours": [yarn.hex for yarn in chart.shades],
+            "yarns": [yarn.name for yarn in chart.shades],
         }
     lengths = [len(data.floats), len(data.integers), knots.nbytes]
     return packed({**data.about, "chart": shown, "lengths": lengths}, data.floats, data.integers, knots.tobytes())

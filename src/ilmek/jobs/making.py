@@ -54,8 +54,8 @@ class Making:
             return None
         return replace(
             loom,
-            knots=chart.rows * chart.columns,
-            area=chart.size.area,
+            knots=chart.tally().knots,
+            area=self.bill.area,
             time=time,
             energy=loom.energy * time / loom.time,
             dressing=float(self.warping.dressing_time),

@@ -16,6 +16,7 @@ from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.carpet.shape import ShapeParams
 from ilmek.carpet.sizes import AUTO, CarpetSize, carpet_size, parse_open_size, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
@@ -46,7 +47,14 @@ RECIPE = ".toml"
 """Ending of a recipe's file."""
 
 GROUPS: Mapping[str, type[Params]] = MappingProxyType(
-    {"fit": FitParams, "reading": ReadParams, "palette": PaletteParams, "plan": YarnPlanParams, "files": FileParams}
+    {
+        "fit": FitParams,
+        "shape": ShapeParams,
+        "reading": ReadParams,
+        "palette": PaletteParams,
+        "plan": YarnPlanParams,
+        "files": FileParams,
+    }
 )
 """The groups of parameters of an order, by the name of the field."""
 
@@ -60,6 +68,7 @@ class CarpetOrder:
              (`size_of_picture`), QUALITY, KNOT and the picture's own shades: wools that come with ilmek where they are
              near, the others dyed to order
     fit      how the picture is fitted to the carpet, and the one side that is given of an open size
+    shape    outline, flat weave and pile
     reading  how it is read
     palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
     pdf      print the chart; default: if it has few enough sheets (`MOST_SHEETS`)
@@ -74,6 +83,7 @@ class CarpetOrder:
     knot: str | None = None
     yarns: tuple[Yarn, ...] | None = None
     fit: FitParams = field(default_factory=FitParams)
+    shape: ShapeParams = field(default_factory=ShapeParams)
     reading: ReadParams = field(default_factory=ReadParams)
     palette: PaletteParams = field(default_factory=PaletteParams)
     plan: YarnPlanParams = field(default_factory=YarnPlanParams)

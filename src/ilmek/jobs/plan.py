@@ -99,6 +99,19 @@ class PlanResult:
         jobs = self.inputs.factory.jobs
         return max((max(carpet.end - jobs[carpet.job].due, 0) for carpet in self.carpets(order)), default=0)
 
+    def steps(self, carpet: PlannedCarpet) -> tuple[MakingStep, ...]:
+        """The steps of making of a carpet: on the loom at the file's cost; after it at the loom's rates, in euros."""
+        inputs = self.inputs
+        job, loom = inputs.factory.jobs[carpet.job], inputs.factory.looms[carpet.loom]
+        times = loom.dressing_time(same=carpet.same), job.weaving[carpet.loom], loom.doffing
+        on_loom = (
+            MakingStep(name, minute * time, loom.cost_of(time) / MONEY)
+            for name, time in zip(ON_LOOM, times, strict=True)
+        )
+        finishing = inputs.orders[job.order].fits[carpet.loom].finishing
+        known = inputs.orders_file.currency == EURO
+        return (*on_loom, *(step if known else replace(step, cost=None) for step in finishing))
+
     @property
     def checks(self) -> tuple[Check, ...]:
         """Of every order: it is in time; or the checks that fail on the loom that comes nearest to weaving it."""
@@ -289,21 +302,8 @@ def _order_json(done: PlanResult, index: int) -> dict[str, Json]:
     }
 
 
-def _steps(done: PlanResult, one: PlannedCarpet) -> tuple[MakingStep, ...]:
-    """The steps of making of a carpet: on the loom at the file's cost; after it at the rates of the loom, in euros."""
-    inputs = done.inputs
-    job, loom = inputs.factory.jobs[one.job], inputs.factory.looms[one.loom]
-    times = loom.dressing_time(same=one.same), job.weaving[one.loom], loom.doffing
-    on_loom = (
-        MakingStep(name, minute * time, loom.cost_of(time) / MONEY) for name, time in zip(ON_LOOM, times, strict=True)
-    )
-    finishing = inputs.orders[job.order].fits[one.loom].finishing
-    known = inputs.orders_file.currency == EURO
-    return (*on_loom, *(step if known else replace(step, cost=None) for step in finishing))
-
-
 def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Json]:
-    factory, steps = done.inputs.factory, _steps(done, one)
+    factory, steps = done.inputs.factory, done.steps(one)
     finishing = sum(step.time or 0.0 for step in steps[len(ON_LOOM) :])
     return {
         "loom": factory.looms[one.loom].name,

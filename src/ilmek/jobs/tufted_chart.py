@@ -5,6 +5,7 @@ from dataclasses import replace
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.yarn_plan import parse_count
+from ilmek.errors import CarpetError
 from ilmek.io.chart.formats import format_of
 from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.order import CarpetOrder
@@ -26,7 +27,12 @@ def charted_for_tufts(order: CarpetOrder, quality: Quality, progress: Progress =
     if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
         order = replace(order, size=make_charted(order, progress.part(0.0, 0.3)).chart.size)
     order = replace(order, quality=quality, pdf=False, files=replace(order.files, rows="none"))
-    return make_charted(order, progress.part(0.3, 1.0))
+    charted = make_charted(order, progress.part(0.3, 1.0))
+    if charted.chart.cells is not None:
+        given = f"tufting of a carpet with {' and '.join(str(kind) for kind in charted.chart.cells.kinds)}"
+        do = "leave --shape, --flat-weave and --pile out and cut the carpet afterwards, or knot it"
+        raise CarpetError(given, allowed="a rectangle of one pile", do=do)
+    return charted
 
 
 def cones_of(charted: ChartResult) -> tuple[Cone, ...]:

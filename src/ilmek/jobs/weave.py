@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ilmek.carpet.bill import yarn_bill
+from ilmek.carpet.cells import PILE
 from ilmek.carpet.chart import Chart
 from ilmek.io.drawing_in import write_drawing_in
 from ilmek.io.json_file import write_json
@@ -24,9 +25,10 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.hand_loom import HandLoom
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import NEAREST, Check, Json, Report, declared_results, must, verdict_json
+from ilmek.report import NEAREST, Check, Json, Report, at_most, declared_results, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.report.shown import Shown
+from ilmek.sentences import Sentence
 from ilmek.units import counted, format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet
@@ -73,7 +75,8 @@ class WeaveResult(Shown):
     @property
     def own_checks(self) -> tuple[Check, ...]:
         """Checks of the job: the carpet, its overlay, and the deadline if one is given."""
-        return (*self.charted.checks, *overlay_checks(self.charted.chart), *self.loomed.checks)
+        by_loom = () if self.loomed.made is not None and self.loomed.made.weavers else pile_checks(self.charted.chart)
+        return (*self.charted.checks, *overlay_checks(self.charted.chart), *by_loom, *self.loomed.checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -155,6 +158,20 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
     source = f"{halves}, {juftis}; the loom ties none"
     cure = "weave by hand from rows.pdf, or leave the overlay out"
     return (must("every knot on two warps", False, source).with_cure(cure),)
+
+
+def pile_checks(chart: Chart) -> tuple[Check, ...]:
+    """That all knots have one pile, as the knife of a head cuts it; none for a chart without piles of their own."""
+    if chart.cells is None or all(kind == PILE for kind in chart.cells.kinds if kind.knotted):
+        return ()
+    piles = [kind for kind in chart.cells.kinds if kind.knotted]
+    heights = len({kind.height for kind in piles if not kind.loop})
+    loops = sum(count for kind, count in zip(chart.cells.kinds, chart.cells.counts, strict=True) if kind.loop)
+    cure, source = Sentence("check.pile-by-hand"), Sentence("check.one-knife")
+    return (
+        at_most(Sentence("check.pile-heights"), heights, 1, "1", source).with_cure(cure),
+        at_most(Sentence("check.pile-loops"), loops, 0, "1", source).with_cure(cure),
+    )
 
 
 def _write_loom(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:

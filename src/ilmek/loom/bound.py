@@ -18,7 +18,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, IntArray
 from ilmek.loom.order import FourTimes
-from ilmek.loom.replay import COUNT, LEAST, MOST, TUBES, Layout, Line, part_of, scan
+from ilmek.loom.replay import COUNT, LEAST, MOST, NONE, TUBES, Layout, Line, extent, part_of, scan
 from ilmek.num.compiled import compiled
 from ilmek.records import record
 
@@ -71,7 +71,9 @@ def _add_rows(
                 part = part_of(head, phase, phases, (first + row) % 2 == 0)
                 low, high = edges[part], edges[part + 1]
                 number, _ = scan(lines[row], low, high, table, present)
-                least = (high - low) * times[0] + (number - 1) * times[1]
+                if number == 0:
+                    continue
+                least = extent(number, present, table)[0] * times[0] + (number - 1) * times[1]
                 least += _gaps(lines[row], low, high, times)
                 by_head[head] += least
                 entered = _bounded(number, present, table, ends[head])
@@ -86,6 +88,8 @@ def _gaps(line: Line, low: int, high: int, times: FourTimes) -> float:
     spent = 0.0
     for column in range(low, high):
         tube = line[column]
+        if tube == NONE:
+            continue
         if last[tube] >= 0 and column - last[tube] > 1:
             spent += min((column - last[tube] - 1) * times[2], times[1])
         last[tube] = column

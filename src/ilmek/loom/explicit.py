@@ -9,7 +9,7 @@ import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
-from ilmek.loom.planner import divided, row_counts
+from ilmek.loom.planner import divided
 from ilmek.loom.programme import Programme
 from ilmek.loom.replay import Layout, expand
 from ilmek.progress import SILENT, Progress
@@ -24,7 +24,6 @@ class CompiledProgramme:
         for stop in programme.stops:
             self._stops[stop.row] = (*self._stops.get(stop.row, ()), stop)
         self._layout = Layout(programme.heads, divided(programme.edges, programme.blocks))
-        self._counts = row_counts(programme.edges, programme.heads)
         self._next, self._loaded = 0, programme.tubes.loading.copy()
 
     @cached_property
@@ -40,9 +39,9 @@ class CompiledProgramme:
         line = tubes.lines(made.knots, number, number + 1, loaded)[0]
         self._next, self._loaded = number + 1, loaded
         columns = np.empty(made.columns, np.int32)
-        expand(line, self._layout, number % 2 == 0, made.keys[number], columns)
-        stops = self._stops.get(number, ())
-        return RowOperations(number, columns, line[columns], self._counts[number % 2], stops=stops)
+        counts = np.zeros((made.heads, tubes.phases), np.int64)
+        columns = columns[: expand(line, self._layout, number % 2 == 0, made.keys[number], columns, counts)]
+        return RowOperations(number, columns, line[columns], counts, stops=self._stops.get(number, ()))
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """Yarn of each knot of a loom row. Raises LoomError beyond the carpet."""

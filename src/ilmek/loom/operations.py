@@ -135,6 +135,7 @@ class LoomSetup:
     knot_yarn    pile yarn of a knot of each yarn [m]
     wefts        bobbins of weft: of the straight and of the sinuous weft
     cyclograms   of a knot and of a row
+    row_knots    knots of each row, from the carpet's bottom edge; None: one in every cell
     """
 
     loom: str
@@ -154,6 +155,7 @@ class LoomSetup:
     knot_yarn: tuple[float, ...]
     wefts: tuple[Bobbin, ...] = ()
     cyclograms: tuple[Cyclogram, ...] = ()
+    row_knots: tuple[int, ...] | None = None
 
     def require_row(self, number: int) -> None:
         """Raises LoomError for a row beyond the carpet."""
@@ -161,9 +163,22 @@ class LoomSetup:
             raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
 
     @property
+    def cells(self) -> int:
+        """Cells of the chart, with a knot or without."""
+        return self.rows * self.columns
+
+    @property
     def knots(self) -> int:
         """Knots of the carpet."""
-        return self.rows * self.columns
+        return self.knots_before(self.rows)
+
+    def knots_before(self, row: int) -> int:
+        """Knots of the rows before a row."""
+        return row * self.columns if self.row_knots is None else sum(self.row_knots[:row])
+
+    def knots_of(self, row: int) -> int:
+        """Knots of a row."""
+        return self.columns if self.row_knots is None else self.row_knots[row]
 
 
 class LoomProgramme(Protocol):
@@ -181,4 +196,4 @@ class LoomProgramme(Protocol):
         """The operations of a loom row. Raises LoomError beyond the carpet, and for a damaged row of a file."""
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
-        """Yarn of each knot of a loom row, as the chart has it. Raises LoomError as `operations`."""
+        """Yarn of each knot of a loom row, as the chart has it; EMPTY: no knot. Raises LoomError as `operations`."""

@@ -34,6 +34,7 @@ from ilmek.loom.replay import (
     Bytes,
     Layout,
     Line,
+    extent,
     idle,
     link_costs,
     part_of,
@@ -64,8 +65,8 @@ FourTimes: TypeAlias = tuple[float, float, float, float]
 """Times of a knot, a colour change, an idle pitch, and the end of a row [s]."""
 
 State: TypeAlias = tuple[FloatArray, IntArray, int, bool, float]
-"""Costs and columns of the states before and after a part, the row of those after it, whether the part begins a row,
-and the time of the slowest of the other heads in it."""
+"""Costs and columns of the states before and after a part, the row of those after it, whether the head has
+not tied in the row, and the time of the slowest of the other heads in it."""
 
 Out: TypeAlias = tuple[Bytes, Bytes, FloatArray]
 """Of each state after a part: the state before, the part's key, its time [s]."""
@@ -135,8 +136,10 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
     begins, ends = 0, 0
     if handler != NONE and tables[0, COUNT, handler] > 0:
         shared[0, 0], begins = handler, 1
+    free, before = True, chosen_before
     for step in range(steps):
         now, then = step % 2, 1 - step % 2
+        free = free or step % phases == 0
         next_number = next_runs = ends = 0
         next_low, next_high, next_line = low, high, line
         if step + 1 < steps:
@@ -144,15 +147,19 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
             next_number, next_runs = scan(next_line, next_low, next_high, tables[then], present[then])
             hints = (line[high - 1], line[low], next_line[next_low], next_line[next_high - 1])
             ends = _shared(hints, tables[now], tables[then], (number, present[now]), shared[then])
-        before = chosen_before if step == 0 else chosen[step - 1]
-        state = (cost, end, now, step % phases == 0, others[step])
+        state = (cost, end, now, free, others[step])
         out = (back[step], chosen[step], part_times[step])
-        _sweeps(line, (low, high, runs), state, before, times, out)
+        if number == 0:
+            _stands(state, before, out)
+        else:
+            free = False
+            _sweeps(line, (*extent(number, present[now], tables[now]), runs), state, before, times, out)
         if number > 1:
             boundaries = (begins, ends, shared[now], shared[then])
             _passes((number, present[now], tables[now]), boundaries, state, before, times, out)
         for one in range(_STATES):
             ended[step, one] = end[now, one]
+        before = chosen[step]
         low, high, line, number, runs, begins = next_low, next_high, next_line, next_number, next_runs, ends
     return _trace((head, first, commit), layout, cost[(steps - 1) % 2], (back, chosen, part_times), ended, spent, keys)
 
@@ -229,22 +236,33 @@ def _reached(entered: tuple[int, float, int, float], rest: float, state: State) 
 
 @compiled
 def _sweeps(  # noqa: PLR0917 - the arrays of a kernel
-    line: Line, part: tuple[int, int, int], state: State, before: Bytes, times: FourTimes, out: Out
+    line: Line, part: tuple[int, int, int, int], state: State, before: Bytes, times: FourTimes, out: Out
 ) -> None:
-    """The states after both sweeps; all others are set to infinite cost."""
-    low, high, runs = part
+    """The states after both sweeps; all others are set to infinite cost. part: knots, first and last column, runs."""
+    knots, low, last, runs = part
     cost, end, now, _, _ = state
     back, chosen, part_times = out
     for one in range(_STATES):
         cost[now, one] = np.inf
-    alone = (high - low) * times[0] + (runs - 1) * times[1]
+    alone = knots * times[0] + (runs - 1) * times[1] + (last - low + 1 - knots) * times[2]
     for order in (SWEEP_RIGHT, SWEEP_LEFT):
-        start, stop = (low, high - 1) if order == SWEEP_RIGHT else (high - 1, low)
+        start, stop = (low, last) if order == SWEEP_RIGHT else (last, low)
         at = _STATES - 2 + order
         entered = _entered(whole(line[start]), start, state, before, times)
         cost[now, at], back[at], part_times[at] = _reached(entered, alone, state)
         end[now, at] = stop
         chosen[at, 0], chosen[at, 1], chosen[at, 2], chosen[at, 3] = order, line[start], line[stop], 0
+
+
+@compiled
+def _stands(state: State, before: Bytes, out: Out) -> None:
+    """The states after a part without a knot: those before it."""
+    cost, end, now, _, others = state
+    back, chosen, part_times = out
+    for one in range(_STATES):
+        cost[now, one], end[now, one] = cost[1 - now, one] + others, end[1 - now, one]
+        back[one], part_times[one] = one, 0.0
+        chosen[one, 0], chosen[one, 2] = SWEEP_RIGHT, before[one, 2]
 
 
 @compiled

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, Indices, Int64, IntArray
+from ilmek.arrays import FloatArray, Indices, IntArray
 from ilmek.loom.account import HeadWork, account_row
 from ilmek.loom.bound import BoundState, add_rows
 from ilmek.loom.order import FORESIGHT, plan
@@ -56,6 +56,7 @@ class CarpetPlanner:
         self.row_times, self.naive_times = np.zeros(rows), np.zeros(rows)
         self.naive_work, self.bound = np.zeros((heads, 4), np.int64), BoundState.before(heads)
         self.total = 0.0
+        self._phases = halves(heads)
 
     @property
     def work(self) -> HeadWork:
@@ -67,6 +68,7 @@ class CarpetPlanner:
         """Plan all rows, or until they cannot be woven within the deadline [s]; yields the share that is planned."""
         rows, columns = self._knots.shape
         least = float(least_row(self.parts.edges, int(self.parts.heads), self._times))
+        least = self._times.weft if has_bare(self._knots) else least
         stand = np.full((int(self.layout.heads), 2), NONE, np.int64)
         loaded = self._tubes.loading.copy()
         step = max(FORESIGHT, _SLICE // columns)
@@ -87,9 +89,8 @@ class CarpetPlanner:
             yield last / rows
 
     def _account(self, lines: Bytes, first: int, keys: Bytes) -> None:
-        of_row = row_counts(self.parts.edges, self.parts.heads)
         sums = (self._tube, self._counted, self._busy)
-        _account(lines, self.layout, first, keys, of_row, self._times.as_tuple(), sums, self.row_times)
+        _account(lines, self.layout, first, keys, self._phases, self._times.as_tuple(), sums, self.row_times)
 
     def _compare(self, lines: Bytes, first: int) -> None:
         """Add rows to the bound, and to the time of the naive order."""
@@ -97,9 +98,8 @@ class CarpetPlanner:
         rows, parts = len(lines), len(self.parts.edges) - 1
         keys = np.zeros((rows, parts, 4), np.uint8)
         keys[:, :, 0] = np.where((first + np.arange(rows)) % 2 == 0, SWEEP_RIGHT, SWEEP_LEFT)[:, None]
-        of_row = row_counts(self.parts.edges, self.parts.heads)
         sums = (self._naive_tube, self.naive_work, self._busy.copy())
-        _account(lines, self.parts, first, keys, of_row, self._times.as_tuple(), sums, self.naive_times)
+        _account(lines, self.parts, first, keys, self._phases, self._times.as_tuple(), sums, self.naive_times)
 
 
 def divided(edges: IntArray, blocks: int) -> IntArray:
@@ -137,16 +137,15 @@ def _sampled(lines: Bytes, parts: Layout, layout: Layout, first: int, times: Tim
     heads = int(parts.heads)
     keys = np.zeros((len(lines), len(layout.edges) - 1, 4), np.uint8)
     plan(lines, layout, first, len(lines), times.as_tuple(), np.full((heads, 2), NONE, np.int64), keys)
-    row_times, of_row = np.zeros(first + len(lines)), row_counts(parts.edges, heads)
+    row_times = np.zeros(first + len(lines))
     sums = (np.full(heads, -1, np.int64), np.zeros((heads, 4), np.int64), np.zeros(heads))
-    _account(lines, layout, first, keys, of_row, times.as_tuple(), sums, row_times)
+    _account(lines, layout, first, keys, halves(heads), times.as_tuple(), sums, row_times)
     return float(row_times.sum())
 
 
-def row_counts(edges: IntArray, heads: int) -> Int64[np.ndarray, "2 heads phases"]:
-    """Knots of each head in each phase of an even row, and of an odd one."""
-    widths = np.diff(edges).reshape(heads, halves(heads))
-    return np.ascontiguousarray(np.stack([widths, widths[:, ::-1]]), np.int64)
+def has_bare(knots: Indices) -> bool:
+    """Whether a cell of a chart has no knot."""
+    return bool((knots == NONE).any())
 
 
 def least_row(edges: IntArray, heads: int, times: Times) -> float:
@@ -165,18 +164,18 @@ def _account(  # noqa: PLR0917 - the arrays of a kernel
     layout: Layout,
     first: int,
     keys: Bytes,
-    of_row: IntArray,
+    phases: int,
     times: tuple[float, float, float, float],
     sums: tuple[IntArray, IntArray, FloatArray],
     row_times: FloatArray,
 ) -> None:
     """Times of rows by their explicit operations; adds to the work of the heads."""
     columns, tubes = np.empty(lines.shape[1], np.int32), np.empty(lines.shape[1], np.uint8)
+    counts = np.zeros((layout.heads, phases), np.int64)
     acts = (times[0], times[1], times[2])
     for row in range(lines.shape[0]):
         number = first + row
-        expand(lines[row], layout, number % 2 == 0, keys[row], columns)
-        for k in range(columns.shape[0]):
+        knots = expand(lines[row], layout, number % 2 == 0, keys[row], columns, counts)
+        for k in range(knots):
             tubes[k] = lines[row, columns[k]]
-        phases = account_row(columns, tubes, of_row[number % 2], acts, sums[0], sums[1], sums[2])
-        row_times[number] = times[3] + phases
+        row_times[number] = times[3] + account_row(columns[:knots], tubes, counts, acts, sums[0], sums[1], sums[2])

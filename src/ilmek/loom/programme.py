@@ -21,8 +21,8 @@ from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import LoomError
 from ilmek.loom.account import HeadWork
 from ilmek.loom.bobbins import Bobbin, stop_time
-from ilmek.loom.operations import Stop
-from ilmek.loom.planner import ROUNDING, CarpetPlanner, knots_in_turn
+from ilmek.loom.operations import EMPTY, Stop
+from ilmek.loom.planner import ROUNDING, CarpetPlanner, has_bare, knots_in_turn
 from ilmek.loom.sharing import MOST_HEADS, require_whole, share
 from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import TubePlan, YarnSupply, most_colours, plan_tubes
@@ -109,7 +109,7 @@ def make_programme(
 ) -> Programme:
     """The programme of a chart for a number of heads.
 
-    knots    indices of yarns, below `yarns`, (rows, columns), row 0 = top
+    knots    indices of yarns, below `yarns`, EMPTY: no knot, (rows, columns), row 0 = top
     bobbins  of weft
     supply   tubes and packages of the heads; default: a tube for each yarn, with packages that never run out
     Raises LoomError for an empty chart, one of another kind than uint8 or of more than MOST_KNOTS knots or
@@ -201,9 +201,9 @@ def least_heads(
     """
     _require_chart(knots, yarns)
     require_whole("heads", heads_max, MOST_HEADS)
-    rows, columns = knots.shape
+    (rows, columns), full = knots.shape, not has_bare(knots)
     for heads in range(1, heads_max + 1):
-        if least_time(rows, columns, heads, times, bobbins) > deadline * ROUNDING:
+        if full and least_time(rows, columns, heads, times, bobbins) > deadline * ROUNDING:
             continue
         trial = progress.part((heads - 1) / heads_max, heads / heads_max)
         more: Any = {"bobbins": bobbins, "supply": supply, "tube_change": tube_change, "progress": trial}
@@ -230,5 +230,6 @@ def _require_chart(knots: Indices, yarns: int) -> None:
             allowed=f"at most {MOST_PER_SIDE} on a side and {MOST_KNOTS // 1_000_000} million in all",
         )
     require_whole("yarns", yarns, MOST_YARNS)
-    if int(knots.max()) >= yarns:
-        raise LoomError(f"a knot of yarn {int(knots.max())}", allowed=f"the list has yarns 0 to {yarns - 1}")
+    most = int(knots.max(initial=0, where=knots != EMPTY))
+    if most >= yarns:
+        raise LoomError(f"a knot of yarn {most}", allowed=f"the list has yarns 0 to {yarns - 1}")

@@ -47,12 +47,17 @@ def part_of(head: int, phase: int, phases: int, forward: bool) -> int:
 
 @compiled
 def scan(line: Line, low: int, high: int, table: IntArray, present: IntArray) -> tuple[int, int]:
-    """Fill the table of a part and the list of its tubes in ascending order; returns their number and its runs."""
+    """Fill the table of a part and the list of its tubes in ascending order; returns their number and its runs.
+
+    A cell without a knot has the tube NONE; runs go on behind it.
+    """
     for one in range(TUBES):
         table[COUNT, one] = 0
     runs, before = 0, -1
     for column in range(low, high):
         tube = line[column]
+        if tube == NONE:
+            continue
         if table[COUNT, tube] == 0:
             table[LEAST, tube] = column
         table[COUNT, tube] += 1
@@ -66,6 +71,18 @@ def scan(line: Line, low: int, high: int, table: IntArray, present: IntArray) ->
             present[found] = one
             found += 1
     return found, runs
+
+
+@compiled
+def extent(number: int, present: IntArray, table: IntArray) -> tuple[int, int, int]:
+    """Knots of a part, and their first and last column, from its table. number: of its tubes, at least 1."""
+    knots, least, most = 0, table[LEAST, present[0]], table[MOST, present[0]]
+    for k in range(number):
+        tube = present[k]
+        knots += table[COUNT, tube]
+        least = min(least, table[LEAST, tube])
+        most = max(most, table[MOST, tube])
+    return knots, least, most
 
 
 @compiled
@@ -83,27 +100,36 @@ def link(table: IntArray, one: int, direction: int, other: int, other_direction:
 
 
 @compiled
-def expand(line: Line, layout: Layout, forward: bool, keys: Bytes, columns: IntArray) -> None:
-    """Write the columns of a row in tying order, those of each head one after the other.
+def expand(  # noqa: PLR0917 - the arrays of a kernel
+    line: Line, layout: Layout, forward: bool, keys: Bytes, columns: IntArray, counts: IntArray
+) -> int:
+    """Write the columns of a row in tying order, those of each head one after the other; returns the number of knots.
 
-    keys  uint8 (parts, 4)      columns  int32 (columns,)
+    keys  uint8 (parts, 4)      columns  int32 (columns,)      counts  knots (heads, phases), written; a phase has one
+    part of the layout or several
     """
     heads, edges = layout
     phases = (edges.shape[0] - 1) // heads
     table, present = np.zeros((3, TUBES), np.int64), np.zeros(TUBES, np.int64)
     passes, at = np.zeros((2, TUBES), np.int64), 0
+    counts[:] = 0
     for head in range(heads):
         for phase in range(phases):
             part = part_of(head, phase, phases, forward)
-            low, high = edges[part], edges[part + 1]
+            low, high, first = edges[part], edges[part + 1], at
             if keys[part, 0] != PASSES:
                 for k in range(high - low):
-                    columns[at + k] = low + k if keys[part, 0] == SWEEP_RIGHT else high - 1 - k
+                    column = low + k if keys[part, 0] == SWEEP_RIGHT else high - 1 - k
+                    if line[column] != NONE:
+                        columns[at] = column
+                        at += 1
             else:
                 number, _ = scan(line, low, high, table, present)
+                at += extent(number, present, table)[0]
                 _directed(keys[part], number, present, table, passes)
-                _write(line, (low, high, at, number), passes, table, columns)
-            at += high - low
+                _write(line, (low, high, first, number), passes, table, columns)
+            counts[head, phase * counts.shape[1] // phases] += at - first
+    return at
 
 
 @compiled
@@ -145,8 +171,9 @@ def _write(line: Line, bounds: tuple[int, int, int, int], passes: IntArray, tabl
         at += knots
     for column in range(low, high):
         tube = line[column]
-        columns[table[LEAST, tube]] = column
-        table[LEAST, tube] += table[MOST, tube]
+        if tube != NONE:
+            columns[table[LEAST, tube]] = column
+            table[LEAST, tube] += table[MOST, tube]
 
 
 @compiled

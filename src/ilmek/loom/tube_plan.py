@@ -210,7 +210,8 @@ def _head_totals(chart: Indices, blocks: IntArray, totals: IntArray) -> None:
     for row in range(chart.shape[0]):
         for head in range(blocks.shape[0] - 1):
             for column in range(blocks[head], blocks[head + 1]):
-                totals[head, chart[row, column]] += 1
+                if chart[row, column] != EMPTY:
+                    totals[head, chart[row, column]] += 1
 
 
 @compiled
@@ -222,7 +223,7 @@ def _most_colours(chart: Indices, edges: IntArray, yarns: int) -> int:
             found = 0
             for column in range(edges[part], edges[part + 1]):
                 yarn = chart[row, column]
-                if seen[yarn] != mark:
+                if yarn != EMPTY and seen[yarn] != mark:
                     seen[yarn] = mark
                     found += 1
             most = max(most, found)
@@ -237,7 +238,8 @@ def _head_counts(chart: Indices, edges: IntArray, head: int, phases: int, counts
         row = step // phases
         part = part_of(head, step % phases, phases, row % 2 == 0)
         for column in range(edges[part], edges[part + 1]):
-            counts[step, chart[rows - 1 - row, column]] += 1
+            if chart[rows - 1 - row, column] != EMPTY:
+                counts[step, chart[rows - 1 - row, column]] += 1
 
 
 @compiled
@@ -301,13 +303,14 @@ def _victim(step: int, loaded: IntArray, left: FloatArray, after: IntArray) -> i
 def _to_tubes(  # noqa: PLR0917 - the arrays of a kernel
     lines: Indices, edges: IntArray, first: int, changes: IntArray, loaded: Indices, out: Indices
 ) -> None:
-    """Write the tube of each knot; `loaded` is updated by the changes."""
+    """Write the tube of each knot, EMPTY where there is none; `loaded` is updated by the changes."""
     heads, tubes = loaded.shape
     phases = (edges.shape[0] - 1) // heads
     tube_of, at = np.zeros((heads, TUBES), np.uint8), 0
     for head in range(heads):
         for tube in range(tubes):
             tube_of[head, loaded[head, tube]] = tube
+        tube_of[head, EMPTY] = EMPTY
     for row in range(lines.shape[0]):
         for phase in range(phases):
             point = (first + row) * phases + phase

@@ -22,8 +22,8 @@ from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.units import mm
 
-MOVES, MOST_MOVES = (20 * mm, 60 * mm, 180 * mm, 600 * mm), 3
-"""Lengths of the moves before the last that are tried [m], and most moves of a path."""
+MOVES, MOST_MOVES, UNHOOKED = (20 * mm, 60 * mm, 180 * mm, 600 * mm), 3, 0.6
+"""Lengths of moves before the last [m], most moves of a path, and a first move over its own size, of a fork."""
 
 _SHORT = 20 * mm
 """Move by which it is found what holds each other [m]."""
@@ -307,7 +307,7 @@ class _Plan:
     def _path(self, group: set[InsertedUnit], unit: InsertedUnit) -> tuple[Vector, ...]:
         """Moves by which a group of which a unit is one comes to the outside: the fewest, `MOST_MOVES` at most."""
         ends, met = list[tuple[Vector, ...]]([()]), set[InsertedUnit](group)
-        lengths = (*unit.first_moves, *MOVES)
+        size = np.ptp(unit.solid.box, axis=0)
         for _ in range(MOST_MOVES - 1):
             longer: list[tuple[Vector, ...]] = []
             for moves in ends:
@@ -318,7 +318,7 @@ class _Plan:
                         continue
                     longer += [
                         (*moves, length * along)
-                        for length in (MOVES if moves else lengths)
+                        for length in (MOVES if moves else (*unit.first_moves, *MOVES, UNHOOKED * (size @ abs(along))))
                         if self._clear(group, length * along, sum(moves, np.zeros(3)), met)
                     ]
             for moves in longer:

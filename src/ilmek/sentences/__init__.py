@@ -8,14 +8,40 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 from ilmek.sentences.english import ENGLISH
 from ilmek.sentences.nouns_turkish import named
+from ilmek.sentences.weaver_english import NOUNS
+
+LATIN, PERSIAN, DEVANAGARI = "0123456789", "۰۱۲۳۴۵۶۷۸۹", "०१२३४५६७८९"
+
+
+class Language(NamedTuple):
+    """A language of people.
+
+    module    of its catalogue           digits  0 to 9
+    leftward  lines begin at the right   local   digits have the forms that a font has for it (locl of OpenType)
+    """
+
+    module: str
+    digits: str = LATIN
+    leftward: bool = False
+    local: bool = False
+
 
 DEFAULT = "en"
-LANGUAGES = {"en": "english", "tr": "turkish"}
-"""The module of each language."""
+LANGUAGES = {"en": Language("english"), "tr": Language("turkish")}
+"""The languages that have every sentence."""
+
+WEAVERS = LANGUAGES | {
+    "fa": Language("persian", PERSIAN, leftward=True),
+    "ar": Language("arabic", "٠١٢٣٤٥٦٧٨٩", leftward=True),
+    "ur": Language("urdu", PERSIAN, leftward=True, local=True),
+    "hi": Language("hindi", DEVANAGARI),
+    "ne": Language("nepali", DEVANAGARI),
+}
+"""The languages of the weaver's papers; those that have no other sentences say them in English."""
 
 _SPOKEN = ContextVar("language", default=DEFAULT)
 
@@ -40,6 +66,30 @@ class Sentence(str):
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
         return (self.key,), dict(self.values)
+
+
+_NOUNS = {text: key for key, text in NOUNS.items()}
+
+
+def noun(text: str) -> str:
+    """The sentence of the weaver's nouns whose English text this is; another text stays as it is.
+
+    A colour may have a word before it and a number behind it.
+
+    >>> with in_language("tr"):
+    ...     translated(noun("seccade-large")), translated(noun("dark green 2")), translated(noun("Zeynep's red"))
+    ('büyük seccade', 'koyu yeşil 2', "Zeynep's red")
+    """
+    if text in _NOUNS:
+        return Sentence(_NOUNS[text])
+    first, _, number = text.rpartition(" ")
+    if number.isdecimal() and isinstance(known := noun(first), Sentence):
+        return Sentence("colour.number", colour=known, number=number)
+    word, _, colour = text.partition(" ")
+    key = _NOUNS.get(f"{word} {{colour}}")
+    if key is not None and isinstance(known := noun(colour), Sentence):
+        return Sentence(key, colour=known)
+    return text
 
 
 def changed(text: str, change: Callable[[str], str]) -> str:
@@ -79,7 +129,7 @@ def joined(first: str, second: str) -> str:
 @contextmanager
 def in_language(language: str) -> Iterator[None]:
     """Say sentences in a language; an unknown one is English."""
-    token = _SPOKEN.set(language if language in LANGUAGES else DEFAULT)
+    token = _SPOKEN.set(language if language in WEAVERS else DEFAULT)
     try:
         yield
     finally:
@@ -95,8 +145,18 @@ def translated(text: str) -> str:
     """
     if not isinstance(text, Sentence):
         return named(text) if _SPOKEN.get() == "tr" else text
-    template = catalogue_of(_SPOKEN.get())[text.key]
+    template = catalogue_of(_SPOKEN.get()).get(text.key, ENGLISH[text.key])
     return template.format(**{name: translated(value) for name, value in text.values.items()})
+
+
+def language_spoken() -> Language:
+    """The language that is spoken."""
+    return WEAVERS[_SPOKEN.get()]
+
+
+def numerals(text: str) -> str:
+    """A text with the digits of the language that is spoken."""
+    return text.translate(str.maketrans(LATIN, language_spoken().digits))
 
 
 def spoken(text: str) -> tuple[str, ...]:
@@ -114,7 +174,7 @@ def spoken(text: str) -> tuple[str, ...]:
 
 def catalogue_of(language: str) -> Mapping[str, str]:
     """The sentences of a language by their keys."""
-    name = LANGUAGES[language]
+    name = WEAVERS[language].module
     found: Any = import_module(f"ilmek.sentences.{name}")
     catalogue: Mapping[str, str] = getattr(found, name.upper())
     return catalogue

@@ -1,7 +1,9 @@
 """The sentences in English."""
 
+from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.papers_english import PAPERS
 from ilmek.sentences.sheets_english import SHEETS
+from ilmek.sentences.weaver_english import WEAVER
 
 ENGLISH = {
     "place.file": "{file}",
@@ -22,6 +24,10 @@ ENGLISH = {
     "check.round-cure": "take a rectangular carpet: --ground COLOUR is that of its corners",
     "check.chosen": "chosen by this project on drawings and photographs",
     "check.pile": "pile: share of the ground filled",
+    "check.one-knife": "the knife of a head stands at one height and cuts every knot",
+    "check.pile-by-hand": "--loom knotting=hand: weavers cut by eye; or give one pile, and shear the rest after",
+    "check.pile-heights": "pile: heights that a head cuts",
+    "check.pile-loops": "pile: knots that are left as loops",
     "check.pile-source": "two legs per knot in the knot's cell, fibre packed as in the free yarn",
     "check.pile-cure": "take a finer yarn or a coarser quality",
     "check.edits": "recipe: edits left out, whole or in part",
@@ -61,6 +67,8 @@ ENGLISH = {
     "ground.warp": "warp",
     "ground.straight-weft": "straight weft",
     "ground.sinuous-weft": "sinuous weft",
+    "cell.no-knot": "no knot",
+    "ground.binding": "binding",
     "ground.ends": "ends",
     "ground.selvedges": "selvedges",
     # Values of parameters
@@ -197,4 +205,6 @@ ENGLISH = {
     "hint.did-you-mean": "did you mean {name!r}?",
     **PAPERS,
     **SHEETS,
+    **WEAVER,
+    **ORDER,
 }  # fmt: skip

@@ -1,7 +1,9 @@
 """The sentences in Turkish, as the pages of the studio say them: options have the names that the pages give them."""
 
+from ilmek.sentences.order_turkish import ORDER
 from ilmek.sentences.papers_turkish import PAPERS
 from ilmek.sentences.sheets_turkish import SHEETS
+from ilmek.sentences.weaver_turkish import WEAVER
 
 TURKISH = {
     "place.file": "{file}",
@@ -22,6 +24,10 @@ TURKISH = {
     "check.round-cure": "dikdörtgen bir halı seçin: zemin rengi köşelerinin rengidir",
     "check.chosen": "bu proje tarafından çizimler ve fotoğraflar üzerinde seçildi",
     "check.pile": "hav: doldurulan zemin payı",
+    "check.one-knife": "bir başlığın bıçağı tek yükseklikte durur ve her ilmeği keser",
+    "check.pile-by-hand": "--loom knotting=hand: dokuyucular gözle keser; ya da tek hav verin, gerisini sonra kırkın",
+    "check.pile-heights": "hav: bir başlığın kestiği yükseklikler",
+    "check.pile-loops": "hav: halka bırakılan ilmekler",
     "check.pile-source": "her ilmeğin gözünde iki bacak, lifler serbest iplikteki gibi sıkı",
     "check.pile-cure": "daha ince bir iplik ya da daha kaba bir kalite seçin",
     "check.edits": "reçete: tümü ya da bir bölümü dışarıda kalan düzenlemeler",
@@ -61,6 +67,8 @@ TURKISH = {
     "ground.warp": "çözgü",
     "ground.straight-weft": "düz atkı",
     "ground.sinuous-weft": "dalgalı atkı",
+    "cell.no-knot": "ilmeksiz",
+    "ground.binding": "kenar overloğu",
     "ground.ends": "kilim uçları",
     "ground.selvedges": "kenarlar",
     # Values of parameters
@@ -197,4 +205,6 @@ TURKISH = {
     "hint.did-you-mean": "{name!r} mi demek istediniz?",
     **PAPERS,
     **SHEETS,
+    **WEAVER,
+    **ORDER,
 }  # fmt: skip

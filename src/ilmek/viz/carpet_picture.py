@@ -21,6 +21,7 @@ from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
+from ilmek.viz.cells_picture import cut_out, with_flat_weave, with_relief
 from ilmek.viz.tufts import encoded, marked_tufts, tufted, yarn_light
 
 LONGEST = 1400
@@ -37,6 +38,8 @@ _FRINGE, _BAND, _SELVEDGE = 0.055, 0.012, 0.008
 _CLOSE_UP = (40, 30)
 _CLOSE_WIDTH = 960
 _FIBRE = 0.10
+_ALL = (slice(None), slice(None))
+"""All rows and columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +122,7 @@ def draw_carpet(
     Raises CarpetError as `check_carpet_width`.
     """
     check_carpet_width(chart.size, width)
-    across, along = _framed_size(chart.size)
+    across, along = shown_size(chart.size)
     layout = _layout(chart.size, longest / max(across, along) if width is None else width / across)
     if width is not None:
         layout = replace(layout, width=width - 2 * layout.selvedge)
@@ -128,7 +131,7 @@ def draw_carpet(
 
 def check_carpet_width(size: CarpetSize, width: int | None) -> None:
     """Raise CarpetError for a width [pixels] out of bounds, and for a picture of more than MOST_PIXELS."""
-    across, along = _framed_size(size)
+    across, along = shown_size(size)
     most = min(WIDEST, int((MOST_PIXELS * across / along) ** 0.5))
     if width is not None and not NARROWEST <= width <= most:
         raise CarpetError(
@@ -140,18 +143,19 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
     """About 40 x 30 knots at the centre of the carpet as a JPEG file, in true proportion."""
     columns, rows = min(_CLOSE_UP[0], chart.columns), min(_CLOSE_UP[1], chart.rows)
     left, top = (chart.columns - columns) // 2, (chart.rows - rows) // 2
-    piece = chart.knots[top : top + rows, left : left + columns]
+    part = slice(top, top + rows), slice(left, left + columns)
     rng = np.random.default_rng(seed)
     across = _CLOSE_WIDTH // _CLOSE_UP[0]
     down = max(2, round(across * chart.quality.across / chart.quality.along))
-    srgb = [yarn.srgb for yarn in chart.yarns]
-    light = yarn_light(piece, srgb, rng, 0.06)
+    srgb = [yarn.srgb for yarn in chart.shades]
+    light = with_relief(yarn_light(chart.shaded[part], srgb, rng, 0.06), chart, part)
     marked = marked_tufts(chart.overlay, (top, left), (rows, columns), srgb, rng)
-    return _jpeg(Image.fromarray(tufted(light, across * columns, down * rows, rng, fibre=_FIBRE, marked=marked)), 86)
+    drawn = tufted(light, across * columns, down * rows, rng, fibre=_FIBRE, marked=marked)
+    return _jpeg(Image.fromarray(with_flat_weave(drawn, chart, rng, part)), 86)
 
 
-def _framed_size(size: CarpetSize) -> tuple[float, float]:
-    """Width and length of the carpet with selvedges, flat ends and fringes [m]."""
+def shown_size(size: CarpetSize) -> tuple[float, float]:
+    """What the picture shows: width and length of the carpet with selvedges, flat ends and fringes [m]."""
     return size.width + 2 * _SELVEDGE, size.length + 2 * (_FRINGE + _BAND)
 
 
@@ -170,13 +174,14 @@ def _drawn(chart: Chart, layout: _Layout, seed: int, progress: Progress) -> Imag
 
 
 def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Progress) -> Rgb:
-    srgb = [yarn.srgb for yarn in chart.yarns]
     if layout.width >= 2 * chart.columns and layout.height >= 2 * chart.rows:
-        light = yarn_light(chart.knots, srgb, rng, 0.05)
+        srgb = [yarn.srgb for yarn in chart.shades]
+        light = with_relief(yarn_light(chart.shaded, srgb, rng, 0.05), chart, _ALL)
         marked = marked_tufts(chart.overlay, (0, 0), (chart.rows, chart.columns), srgb, rng)
-        return tufted(light, layout.width, layout.height, rng, marked=marked, progress=progress)
+        drawn = tufted(light, layout.width, layout.height, rng, marked=marked, progress=progress)
+        return with_flat_weave(drawn, chart, rng, _ALL)
     height, width = min(layout.height, chart.rows), min(layout.width, chart.columns)
-    palette, size = np.array(srgb, dtype=np.uint8), (chart.rows, chart.columns)
+    palette, size = chart.colour_table, (chart.rows, chart.columns)
     mean = resampled_rows(lambda part: palette[chart.knots[part]], size, (height, width), progress)
     shades = 1.0 + np.repeat(rng.normal(0.0, 0.015, height // 12 + 1), 12)[:height].astype(np.float32)
     out = np.empty((height, width, 3), dtype=np.uint8)
@@ -188,9 +193,12 @@ def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Pro
 
 
 def _framed(chart: Chart, pile: Image.Image, layout: _Layout, rng: np.random.Generator) -> Image.Image:
-    """The pile with a selvedge left and right, a flat band and a fringe above and below."""
+    """The pile with a selvedge left and right, a flat band and a fringe above and below; with a shape, cut out."""
     side, end = layout.selvedge, layout.band + layout.fringe
     whole = Image.new("RGB", (layout.width + 2 * side, layout.height + 2 * end), (255, 255, 255))
+    if (cut := cut_out(pile, chart)) is not None:
+        whole.paste(pile, (side, end), cut)
+        return whole
     light = _edge_light(chart)
     for left in (0, side + layout.width):
         whole.paste(Image.fromarray(selvedge(layout.height + 2 * layout.band, side, light, rng)), (left, layout.fringe))
@@ -206,7 +214,7 @@ def _framed(chart: Chart, pile: Image.Image, layout: _Layout, rng: np.random.Gen
 def _edge_light(chart: Chart) -> tuple[float, float, float]:
     """The linear colour of the yarn most frequent at the sides, somewhat darkened: the selvedge is overcast in it."""
     edge = np.concatenate([chart.knots[:, 0], chart.knots[:, -1]])
-    red, green, blue = LINEAR[list(chart.yarns[int(np.bincount(edge).argmax())].srgb)].tolist()
+    red, green, blue = LINEAR[chart.colour_table[np.bincount(edge).argmax()]].tolist()
     return 0.8 * red + 0.01, 0.8 * green + 0.01, 0.8 * blue + 0.01
 
 

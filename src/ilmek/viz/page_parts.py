@@ -68,6 +68,9 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
 
 def _grid(chart: Chart) -> str:
     grid = f"{count(chart.columns)} across × {count(chart.rows)} rows"
+    if chart.cells is not None:
+        bare = chart.cells.index.size - chart.tally().knots
+        grid = f"{grid} of cells, {count(bare)} without a knot" if bare else grid
     return f"{grid} of cells, with half and jufti knots" if len(chart.overlay) else grid
 
 

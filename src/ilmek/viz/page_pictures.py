@@ -94,9 +94,9 @@ def pictures(
         "columns": chart.columns,
         "step": step,
         "codes": [red << 16 | green << 8 | blue for red, green, blue in codes],
-        "names": [yarn.name for yarn in chart.yarns],
-        "symbols": list(symbols),
-        "letters": [letter(yarn.srgb) for yarn in chart.yarns],
+        "names": [yarn.name for yarn in chart.shades],
+        "symbols": list(symbols.ljust(len(chart.shades))),
+        "letters": [letter(yarn.srgb) for yarn in chart.shades],
         "marks": _marks(chart),
     }
     what = "the picture of the carpet"
@@ -132,10 +132,10 @@ def thinning(chart: Chart) -> int:
 
 def yarn_codes(chart: Chart) -> list[tuple[int, int, int]]:
     """The sRGB code of each yarn in the page's picture of the chart: its own, or the nearest that no other one has."""
-    taken: set[tuple[int, int, int]] = {yarn.srgb for yarn in chart.yarns}
+    taken: set[tuple[int, int, int]] = {yarn.srgb for yarn in chart.shades}
     seen: set[tuple[int, int, int]] = set()
     codes = []
-    for yarn in chart.yarns:
+    for yarn in chart.shades:
         code = yarn.srgb
         if code in seen:
             code = next(near for near in _near(code) if near not in taken)
@@ -200,7 +200,7 @@ def cut_picture(whole: Rgb, fit: Fit, left_out: list[str]) -> CutPicture | None:
 
 
 def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]) -> PagePicture:
-    knots = np.ascontiguousarray(chart.knots[::step, ::step])
+    knots = np.ascontiguousarray(chart.shaded[::step, ::step])
     picture = Image.frombytes("P", (knots.shape[1], knots.shape[0]), knots.tobytes())
     picture.putpalette([channel for code in codes for channel in code])
     stream = io.BytesIO()

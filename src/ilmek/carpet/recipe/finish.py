@@ -7,6 +7,7 @@ import numpy as np
 
 from ilmek.arrays import Bool, FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import recoded
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.design import bands
@@ -222,9 +223,7 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
         return chart, {number: at for at, number in enumerate(kept)}
     new = {yarn.name: at for at, yarn in enumerate(chosen)}
     table = np.array([new[name] for name in names_to_buy(chart)], dtype=np.uint8)
-    knots: Indices = np.empty_like(chart.knots)
-    for band in bands(*knots.shape):
-        knots[band] = table[chart.knots[band]]
+    knots = recoded(chart.knots, table)
     known = dict(zip((yarn.name for yarn in chart.yarns), chart.reading.differences, strict=False))
     none = YarnDifference(0.0, 0.0)
     reading = replace(

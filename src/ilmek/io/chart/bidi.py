@@ -26,13 +26,15 @@ def is_rightward(text: str) -> bool:
     return next((kind == "L" for kind in map(unicodedata.bidirectional, text) if kind in _STRONG), True)
 
 
-def levels(text: str) -> list[int]:
+def levels(text: str, rightward: bool | None = None) -> list[int]:
     """The embedding level of each character: even ones are read to the right, odd ones to the left.
+
+    rightward  whether the line begins at the left; None: by its first strong character
 
     >>> levels("a לב 12")
     [0, 0, 1, 1, 1, 2, 2]
     """
-    base = 0 if is_rightward(text) else 1
+    base = 0 if (is_rightward(text) if rightward is None else rightward) else 1
     real = [place for place, letter in enumerate(text) if unicodedata.bidirectional(letter) != "BN"]
     letters = [text[place] for place in real]
     kinds = [unicodedata.bidirectional(letter) for letter in letters]
@@ -50,13 +52,15 @@ def levels(text: str) -> list[int]:
     return levels
 
 
-def visual_runs(text: str) -> list[tuple[str, bool]]:
+def visual_runs(text: str, rightward: bool | None = None) -> list[tuple[str, bool]]:
     """The parts of one direction from left to right, each in reading order, and whether it is read to the right; L2.
+
+    rightward  as of `levels`
 
     >>> visual_runs("קרם 12")
     [('12', True), ('קרם ', False)]
     """
-    found = levels(text)
+    found = levels(text, rightward)
     order = list(range(len(text)))
     for level in range(max(found, default=0), 0, -1):
         for first, stop in _spans(order, lambda place, level=level: found[place] >= level):  # type: ignore[misc]

@@ -1,5 +1,5 @@
 """Knot charts as indexed BMP, as carpet CAD programs pass them: one pixel one knot, whose index is the position of its
-yarn in the creel.
+yarn in the creel; the last one has no yarn: plain ground.
 
 Only the colours and, as pixels per metre, the quality are in the file; chart.png and chart.oxs have everything.
 """
@@ -8,7 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ilmek.carpet.cells import GROUND_COLOUR
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import CODES, NO_KNOT, recoded
+from ilmek.errors import CarpetError
 from ilmek.io.chart.png import CountedFile, chart_picture
 from ilmek.io.picture import METRE
 from ilmek.progress import SILENT, Progress
@@ -16,10 +19,17 @@ from ilmek.progress import SILENT, Progress
 
 def write_chart_bmp(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
     """Write the chart to `path`, 8 bits a knot."""
-    positions = np.array(chart.positions, dtype=np.uint8)
-    palette = np.zeros((max(chart.positions) + 1, 3), dtype=np.uint8)
-    palette[positions] = [yarn.srgb for yarn in chart.yarns]
-    knots = chart.knots if chart.creel is None else positions[chart.knots]
+    positions = chart.positions
+    table = np.full(CODES, NO_KNOT, dtype=np.uint8)  # position of each code
+    table[: len(positions)] = positions
+    knots = recoded(chart.knots, table)
+    bare = NO_KNOT in chart.knots
+    if bare and NO_KNOT in positions:
+        given = f"--bmp: a yarn has the last position of the creel, {NO_KNOT}, which the cells without a knot have"
+        raise CarpetError(given, do="give it another position")
+    palette = np.zeros((CODES if bare else max(positions) + 1, 3), dtype=np.uint8)
+    palette[-1] = GROUND_COLOUR
+    palette[list(positions)] = [yarn.srgb for yarn in chart.yarns]
     dots = (chart.quality.across * METRE, chart.quality.along * METRE)
     with CountedFile(path, chart.knots.size, progress) as file:
         chart_picture(knots, palette).save(file, format="BMP", dpi=dots)

@@ -1,15 +1,15 @@
 """The first page of a printed knot chart: the whole carpet with its sheets."""
 
-import numpy as np
 from PIL import Image
 from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.legend import thousands
-from ilmek.io.chart.printing import PrintCanvas, title_of
+from ilmek.io.chart.legend import colours_in_words, thousands
+from ilmek.io.chart.printing import PrintCanvas, size_of, title_of
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import STRONG, TEXT
-from ilmek.units import counted, format_number
+from ilmek.sentences import Sentence, noun
+from ilmek.units import format_number
 
 _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
@@ -18,13 +18,13 @@ _GREY = (0.36, 0.40, 0.44)
 def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout) -> None:
     """Draw the carpet in true proportion under the grid of sheets; each number is a link to its sheet."""
     canvas.bookmarkPage("overview")
-    canvas.addOutlineEntry("The whole carpet", "overview", 0)
+    canvas.addOutlineEntry(canvas.numerals(Sentence("chart.whole")), "overview", 0)
     canvas.setFont(STRONG, 16)
-    canvas.drawString(_LEFT, _TOP, f"Knot chart: {title_of(chart)}")
+    canvas.write(_LEFT, _TOP, Sentence("chart.title", name=title_of(chart)))
     canvas.setFont(TEXT, 9)
     canvas.setFillColorRGB(*_GREY)
     for line, text in enumerate(_facts(chart, plan)):
-        canvas.drawString(_LEFT, _TOP - 19.0 - 13.0 * line, text)
+        canvas.write(_LEFT, _TOP - 19.0 - 13.0 * line, text)
     proportion = plan.cell_height / plan.cell_width
     scale = min(_WIDTH / chart.columns, _HEIGHT / chart.rows / proportion)
     width, height = scale * chart.columns, scale * chart.rows * proportion
@@ -37,23 +37,28 @@ def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout) -> None:
 
 
 def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
-    size, quality = chart.size, chart.quality
-    lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
-    density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
-    cells = f"{chart.columns} knots × {chart.rows} rows = {thousands(chart.knots.size)} knots"
-    knots = f"{cells} in {counted(chart.colours, 'colour')}"
-    sheets = f" on {thousands(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
-    order = "Rows are counted from the bottom, knots from the left."
+    across, along = (format_number(count / 10) for count in (chart.quality.across, chart.quality.along))
+    sheets = Sentence(
+        "chart.sheets" if plan.count > 1 else "chart.one-sheet",
+        columns=chart.columns,
+        rows=chart.rows,
+        knots=thousands(chart.tally().knots),
+        colours=colours_in_words(chart.colours),
+        sheets=thousands(plan.count),
+        across=plan.sheet_columns,
+        up=plan.sheet_rows,
+    )
+    order = Sentence("chart.order")
     return (
-        f"{lengths}, {density}, {chart.knot} knots",
-        knots + (sheets if plan.count > 1 else " on one sheet"),
-        order + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
+        Sentence("chart.facts", size=size_of(chart.size), across=across, along=along, knot=noun(chart.knot)),
+        sheets,
+        Sentence("chart.two", first=order, second=Sentence("chart.shaded")) if plan.count > 1 else order,
     )
 
 
 def _thumbnail(chart: Chart) -> Image.Image:
     """The chart as a picture of at most 1200 pixels per side."""
-    picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots])
+    picture = Image.fromarray(chart.colour_table[chart.knots])
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 

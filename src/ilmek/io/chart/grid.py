@@ -11,6 +11,7 @@ from ilmek.io.chart.overlay_marks import draw_marks
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
+from ilmek.sentences import Sentence
 
 _LEFT, _TOP = 54.0, 800.0
 """Left edge of the cells and baseline of the title [pt]."""
@@ -20,7 +21,8 @@ _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 def draw_sheet(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw a sheet on a page of its own."""
     canvas.bookmarkPage(f"sheet-{sheet.number}")
-    canvas.addOutlineEntry(f"Sheet {sheet.number}: {sheet.title}", f"sheet-{sheet.number}", 1)
+    entry = Sentence("chart.sheet", number=sheet.number, title=sheet.title)
+    canvas.addOutlineEntry(canvas.numerals(entry), f"sheet-{sheet.number}", 1)
     canvas.saveState()
     canvas.translate(_LEFT, _TOP - 42.0 - (sheet.shown_high - sheet.low) * plan.cell_height)
     draw_cells(canvas, chart, plan, sheet, inks)
@@ -175,16 +177,16 @@ def _write_title(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> N
     """Write the title of the sheet, and links to its neighbours."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 11)
-    canvas.drawString(_LEFT, _TOP, sheet.title)
+    canvas.write(_LEFT, _TOP, sheet.title)
     canvas.setFont(TEXT, 8)
     canvas.setFillColorRGB(*_GREY)
-    canvas.drawRightString(541.0, _TOP, f"sheet {sheet.number} of {plan.count}")
-    arrows = {"left": "←", "right": "→", "below": "↓", "above": "↑"}
+    canvas.write_to(541.0, _TOP, Sentence("chart.sheet-of", number=sheet.number, count=plan.count))
     x = _LEFT
     for side, number in sheet.neighbours.items():
         if number:
-            text = f"{arrows[side]} {side}: sheet {number}"
-            width = canvas.stringWidth(text, TEXT, 8)
-            canvas.drawString(x, 26.0, text)
-            canvas.linkRect("", f"sheet-{number}", (x, 22.0, x + width, 34.0), thickness=0)
+            text = Sentence(f"chart.{side}", number=number)
+            width = canvas.text_width(text)
+            canvas.write(x, 26.0, text)
+            left = canvas.side(x, width)
+            canvas.linkRect("", f"sheet-{number}", (left, 22.0, left + width, 34.0), thickness=0)
             x += width + 18.0

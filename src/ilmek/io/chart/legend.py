@@ -6,10 +6,11 @@ from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import TENS, Mounting
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.lettering import cut_line, draw_line, line_width, two_lines
+from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
-from ilmek.units import counted, format_number, g
+from ilmek.sentences import Sentence
+from ilmek.units import cm, format_number, g, mm
 
 _LEFT, _TOP, _LOW = 54.0, 800.0, 50.0
 _GREY, _RULE = (0.36, 0.40, 0.44), 0.75
@@ -19,8 +20,16 @@ _LINE, _GAP = 19.0, 26.0
 _ALONE, _WIDTH = 330.0, 295.0
 """Width of an entry with its knots and share, alone and with the columns of the need at its right [pt]."""
 
-_COLUMNS = (("length [m]", 348.0), ("mass [g]", 397.0), ("to buy [g]", 450.0), ("hanks", 487.0))
-"""Headings of the need, and right edges of its columns from the left [pt]."""
+_COLUMNS = (
+    (Sentence("legend.length"), 348.0),
+    (Sentence("legend.mass"), 397.0),
+    (Sentence("legend.to-buy"), 450.0),
+    (Sentence("legend.hanks"), 487.0),
+)
+"""Headings of the need, and ends of its columns from the side where lines begin [pt]."""
+
+_ROOM = 38.0
+"""Width of a column of numbers, whose ones stand below each other in every language [pt]."""
 
 _NAME, _SMALL = 9.0, 6.5
 """Sizes of a name's letters, and of those of a long name [pt]."""
@@ -31,6 +40,11 @@ def thousands(number: int) -> str:
     return f"{number:,}".replace(",", "\u202f")
 
 
+def colours_in_words(number: int) -> Sentence:
+    """A number of colours."""
+    return Sentence("count.colours" if number != 1 else "count.colour", count=number)
+
+
 def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printing) -> None:
     """Draw the legend: swatch with symbol, symbol alone, name, count, share and need of every yarn that is used, then
     the need of the ground, and the mounting.
@@ -39,8 +53,9 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     total = tied.total
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
-    canvas.addOutlineEntry("Legend", "legend", 0)
-    y = _begin(canvas, f"Legend: {counted(len(chart.used), 'colour')}, {thousands(total)} knots", bool(needs))
+    canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
+    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
+    y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))
         draw_entry(canvas, chart, inks, (index, tied.of(index), total), (_LEFT, y, _WIDTH if needs else _ALONE))
@@ -58,44 +73,52 @@ def draw_entry(
 ) -> None:
     """Draw the entry of a yarn in the legend.
 
-    counts  index of the yarn, its number of knots and that of all yarns      box  left edge, baseline and width [pt]
+    counts  index of the yarn, its number of knots and that of all yarns
+    box     where it begins from the side where lines begin, baseline and width [pt]
     """
     (index, count, total), (x, y, width) = counts, box
     canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)
     canvas.setLineWidth(0.4)
-    canvas.rect(x, y - 4.0, 24.0, 14.0, stroke=1, fill=1)
+    canvas.rect(canvas.side(x, 24.0), y - 4.0, 24.0, 14.0, stroke=1, fill=1)
     canvas.setFont(SIGNS, 10)
     canvas.setFillGray(1.0 if inks.white[index] else 0.0)
-    canvas.draw_sign(x + 12.0, y, inks.symbols[index])
+    canvas.draw_sign(canvas.side(x + 12.0), y, inks.symbols[index])
     canvas.setFillGray(0.1)
-    canvas.draw_sign(x + 38.0, y, inks.symbols[index])
+    canvas.draw_sign(canvas.side(x + 38.0), y, inks.symbols[index])
     canvas.setFont(TEXT, 9)
     share = 100 * count / total
-    canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
     number = thousands(count)
-    canvas.drawRightString(x + width - 44.0, y, number)
-    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(number, TEXT, 9))
+    _write_number(canvas, x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
+    _write_number(canvas, x + width - 44.0, y, number)
+    used = max(canvas.text_width(number), _ROOM) if canvas.leftward else canvas.text_width(number)
+    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - used)
+
+
+def _write_number(canvas: PrintCanvas, end: float, y: float, text: str) -> None:
+    """Write a number in the column that ends there from the side where lines begin, its ones below those above."""
+    canvas.drawRightString(canvas.side(end) + (_ROOM if canvas.leftward else 0.0), y, text)
 
 
 def _write_name(canvas: PrintCanvas, name: str, at: tuple[float, float], room: float) -> None:
     """Write a name in one line, or smaller in two."""
-    x, y = at
+    (x, y), name = at, canvas.name_of(name)
     if line_width(name, _NAME) <= room:
-        draw_line(canvas, x, y, name, _NAME)
+        canvas.write_name(x, y, name, _NAME)
         return
     first, more = two_lines(name, _SMALL, room)
-    draw_line(canvas, x, y + 4.0 if more else y, cut_line(first, _SMALL, room), _SMALL)
-    draw_line(canvas, x, y - 3.5, cut_line(more, _SMALL, room), _SMALL)
+    canvas.write_name(x, y + 4.0 if more else y, cut_line(first, _SMALL, room), _SMALL)
+    canvas.write_name(x, y - 3.5, cut_line(more, _SMALL, room), _SMALL)
 
 
 def _begin(canvas: PrintCanvas, title: str, needs: bool) -> float:
     """Write the title of a page and the headings of its columns; the baseline above the first entry [pt]."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 13)
-    canvas.drawString(_LEFT, _TOP, title)
+    canvas.write(_LEFT, _TOP, title)
     if needs:
-        _write_headings(canvas, _TOP - 17.0, (("knots", _WIDTH - 44.0), ("share", _WIDTH), *_COLUMNS))
+        knots, share = Sentence("legend.knots"), Sentence("legend.share")
+        _write_headings(canvas, _TOP - 17.0, ((knots, _WIDTH - 44.0), (share, _WIDTH), *_COLUMNS))
     return _TOP - 17.0
 
 
@@ -103,7 +126,7 @@ def _room(canvas: PrintCanvas, y: float, height: float, needs: bool = False) -> 
     """The baseline below y, on a new page where the height [pt] does not fit."""
     if y - height < _LOW:
         canvas.showPage()
-        y = _begin(canvas, "Legend, continued", needs)
+        y = _begin(canvas, Sentence("legend.continued"), needs)
     return y - _LINE
 
 
@@ -111,7 +134,7 @@ def _write_headings(canvas: PrintCanvas, y: float, headings: Sequence[tuple[str,
     canvas.setFont(TEXT, 7)
     canvas.setFillColorRGB(*_GREY)
     for heading, right in headings:
-        canvas.drawRightString(_LEFT + right, y, heading)
+        _write_number(canvas, _LEFT + right, y, heading)
 
 
 def _write_need(canvas: PrintCanvas, need: YarnNeed, y: float) -> None:
@@ -121,56 +144,57 @@ def _write_need(canvas: PrintCanvas, need: YarnNeed, y: float) -> None:
     values = (need.length, need.mass / g, need.to_buy / g)
     texts = (*(f"{value:,.{0 if value >= 10 else 1}f}".replace(",", "\u202f") for value in values), str(need.hanks))
     for text, (_, right) in zip(texts, _COLUMNS, strict=True):
-        canvas.drawRightString(_LEFT + right, y, text)
+        _write_number(canvas, _LEFT + right, y, text)
 
 
 def _draw_ground(canvas: PrintCanvas, bill: YarnBill, y: float) -> float:
     """Draw the lines of the ground's yarns and of all yarns; the last baseline [pt]."""
-    y = _heading(canvas, "Ground and edges", y, _LINE * (len(bill.ground) + 1))
+    y = _heading(canvas, Sentence("legend.ground"), y, _LINE * (len(bill.ground) + 1))
     for need in bill.ground:
         y -= _LINE * 0.8
         canvas.setFillGray(0.1)
         canvas.setFont(TEXT, 9)
-        canvas.drawString(_LEFT + 52.0, y, need.name)
+        canvas.write(_LEFT + 52.0, y, need.name)
         _write_need(canvas, need, y)
     y -= _LINE
     canvas.setFont(STRONG, 9)
-    canvas.drawString(_LEFT + 52.0, y, "All yarns")
+    canvas.write(_LEFT + 52.0, y, Sentence("legend.all"))
     mass, to_buy = bill.mass / g, sum(need.to_buy for need in bill.needs) / g
     for value, (_, right) in zip((mass, to_buy), _COLUMNS[1:3], strict=True):
-        canvas.drawRightString(_LEFT + right, y, thousands(round(value)))
+        _write_number(canvas, _LEFT + right, y, thousands(round(value)))
     return y
 
 
 def _draw_mounting(canvas: PrintCanvas, chart: Chart, made: Mounting, y: float) -> None:
     """Draw what the loom is set up and the weaving is checked by."""
     lines = mounting_lines(chart, made)
-    y = _heading(canvas, "On the loom", y, _LINE * len(lines))
+    y = _heading(canvas, Sentence("mounting.title"), y, _LINE * len(lines))
     for name, text in lines:
         y -= _LINE * 0.8
         canvas.setFont(TEXT, 9)
         canvas.setFillColorRGB(*_GREY)
-        canvas.drawString(_LEFT + 52.0, y, name)
+        canvas.write(_LEFT + 52.0, y, name)
         canvas.setFillGray(0.1)
-        canvas.drawString(_LEFT + 150.0, y, text)
+        canvas.write(_LEFT + 150.0, y, text)
 
 
 def _heading(canvas: PrintCanvas, title: str, y: float, height: float) -> float:
     """A rule and the title of a part of a height, on a new page where it does not fit; its baseline [pt]."""
     if y - height - 2 * _GAP < _LOW:
         canvas.showPage()
-        y = _begin(canvas, "Legend, continued", False)
+        y = _begin(canvas, Sentence("legend.continued"), False)
     y -= _GAP
     canvas.setStrokeGray(_RULE)
     canvas.setLineWidth(0.4)
-    canvas.line(_LEFT, y + 14.0, _LEFT + _COLUMNS[-1][1], y + 14.0)
+    left, width = canvas.side(_LEFT, _COLUMNS[-1][1]), _COLUMNS[-1][1]
+    canvas.line(left, y + 14.0, left + width, y + 14.0)
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 10)
-    canvas.drawString(_LEFT, y, title)
+    canvas.write(_LEFT, y, title)
     return y
 
 
-def mounting_lines(chart: Chart, made: Mounting) -> tuple[tuple[str, str], ...]:
+def mounting_lines(chart: Chart, made: Mounting) -> tuple[tuple[Sentence, Sentence], ...]:
     """The mounting in words, each with its name; lengths in cm and mm.
 
     >>> from ilmek import read_yarns
@@ -179,33 +203,29 @@ def mounting_lines(chart: Chart, made: Mounting) -> tuple[tuple[str, str], ...]:
     >>> dict(mounting_lines(made, mounting(made)))["middle row"]
     'in row 2, 3 cm from the lower edge'
     """
-    quality, edges = chart.quality, made.selvedge_warps
-    dense = f"{format_number(quality.across / 10)} knots, {format_number(quality.along / 10)} rows"
-    rows = f"{_middle('row', made.middle_row)}, {_cm(chart.size.length / 2)} from the lower edge"
-    knots = f"{_middle('knot', made.middle_knot)}, {_cm(chart.size.width / 2)} from the left edge of the pile"
+    quality, size = chart.quality, chart.size
+
+    def line(key: str, text: str = "", **values: object) -> tuple[Sentence, Sentence]:
+        return Sentence(f"mounting.{key}", count=TENS), Sentence(f"mounting.{text or f'{key}-text'}", **values)
+
     return (
-        ("warps", f"{thousands(made.warps)}, of which {edges} at the edges without knots; two for a knot"),
-        ("warp pitch", f"{format_number(1000 * made.pitch)} mm; {_cm(made.width)} wide on the loom"),
-        (
-            "warp length",
-            f"{_cm(made.warp_length)} each, {_cm(made.fringe)} of it for the end and fringe at either side",
-        ),
-        ("in a decimetre", f"{dense}: measure often"),
-        ("middle row", rows),
-        ("middle knot", knots),
-        (f"each {TENS}th row", f"{_cm(made.row_mark)} from the one before, row {TENS} as far from the lower edge"),
-        (f"each {TENS}th knot", f"{_cm(made.knot_mark)} from the one before"),
+        line("warps", warps=thousands(made.warps), edges=made.selvedge_warps),
+        line("pitch", pitch=format_number(made.pitch / mm), width=_cm(made.width)),
+        line("length", length=_cm(made.warp_length), fringe=_cm(made.fringe)),
+        line("dense", across=format_number(quality.across / 10), along=format_number(quality.along / 10)),
+        line("middle-row", **_middle("row", made.middle_row), length=_cm(size.length / 2)),
+        line("middle-knot", **_middle("knot", made.middle_knot), length=_cm(size.width / 2)),
+        line("each-row", length=_cm(made.row_mark), count=TENS),
+        line("each-knot", length=_cm(made.knot_mark)),
     )
 
 
 def _cm(length: float) -> str:
-    return f"{format_number(100 * length)} cm"
+    return format_number(length / cm)
 
 
-def _middle(noun: str, after: float) -> str:
-    """Where a middle lies: between two of an even number, in one of an odd number."""
-    return (
-        f"between {noun}s {round(after)} and {round(after) + 1}"
-        if after == int(after)
-        else f"in {noun} {round(after + 0.5)}"
-    )
+def _middle(what: str, after: float) -> dict[str, object]:
+    """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
+    if after == int(after):
+        return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}
+    return {"text": f"in-{what}", "number": round(after + 0.5)}

@@ -1,4 +1,4 @@
-"""Names in all scripts on the pages of a PDF: parts of one direction and one font, shaped by HarfBuzz.
+"""Text in all scripts on the pages of a PDF: parts of one direction and one font, shaped by HarfBuzz.
 
 Persian, Arabic and Urdu letters join, Devanagari forms its conjuncts, marks stand on their letters; `bidi` orders the
 parts. To be searched, each glyph has the text of its letters; a part read to the right, whose glyphs may stand in
@@ -13,14 +13,19 @@ from typing import Any, NamedTuple
 import uharfbuzz
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import ShapeData, ShapedStr
+from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.errors import JOINERS
 from ilmek.io.chart.bidi import visual_runs
-from ilmek.io.chart.printing import PrintCanvas
-from ilmek.io.chart.symbols import ARABIC, DEVANAGARI, HAN, HANGUL, HEBREW, TEXT, register_fonts
+from ilmek.io.chart.symbols import ARABIC, DEVANAGARI, HAN, HANGUL, HEBREW, STRONG, TEXT, register_fonts
+from ilmek.sentences import language_spoken
 
 _SCRIPTS = {HEBREW: ((0x0590, 0x05FF),), ARABIC: ((0x0600, 0x06FF), (0x0750, 0x077F)), DEVANAGARI: ((0x0900, 0x097F),)}
 """Code points for which a font comes before TEXT, which has no joined forms and no marks in place."""
+
+
+_HEAVY = 0.035
+"""Width of the line around a letter of a script without a bold font, as a share of the size."""
 
 
 class _Part(NamedTuple):
@@ -33,22 +38,56 @@ class _Part(NamedTuple):
     marked: bool = False
 
 
-def line_width(text: str, size: float) -> float:
-    """Width of a line of text [pt] in type of `size` [pt]."""
-    return size * sum(part.width for part in _parts(text))
+def line_width(text: str, size: float, base: str = TEXT, rightward: bool | None = None) -> float:
+    """Width of a line of text [pt] in type of `size` [pt]; base, rightward  as of `draw_line`."""
+    return size * sum(part.width for part in _parts(text, base, rightward))
 
 
-def draw_line(canvas: PrintCanvas, x: float, y: float, text: str, size: float) -> None:
-    """Draw a line of text with its left edge at x and its baseline at y [pt]."""
-    for part in _parts(text):
+def draw_line(
+    canvas: Canvas, x: float, y: float, text: str, size: float, base: str = TEXT, rightward: bool | None = None
+) -> None:
+    """Draw a line of text with its left edge at x and its baseline at y [pt].
+
+    base       font of the letters that it has; the scripts are as heavy as STRONG where it is that
+    rightward  whether the line begins at the left; None: by its first letter
+    """
+    for part in _parts(text, base, rightward):
+        heavy = base == STRONG and part.font in _SCRIPTS
+        if heavy:
+            canvas.saveState()
+            ink = canvas._fillColorObj
+            canvas.setStrokeGray(*ink) if isinstance(ink, tuple) and len(ink) == 1 else canvas.setStrokeColor(ink)
+            canvas.setLineWidth(_HEAVY * size)
+            canvas._code.append("2 Tr")
         canvas.setFont(part.font, size)
         if part.marked:
             actual = part.text.encode("utf-16-be").hex().upper()
             canvas._code.append(f"/Span <</ActualText <FEFF{actual}>>> BDC")
-        canvas.draw_letters(x, y, part.glyphs)
+        Canvas.drawString(canvas, x, y, part.glyphs)
         if part.marked:
             canvas._code.append("EMC")
+        if heavy:
+            canvas.restoreState()
         x += size * part.width
+
+
+def is_plain(text: str, font: str) -> bool:
+    """Whether a font of reportlab shows a text as it is: it has every letter, none is read to the left, and no digit
+    has a form of the language that is spoken.
+    """
+    return _is_plain(text, font, language_spoken().local)
+
+
+@lru_cache(maxsize=4096)
+def _is_plain(text: str, font: str, local: bool) -> bool:
+    if local and any("۰" <= letter <= "۹" for letter in text):
+        return False
+    return all(unicodedata.bidirectional(letter) not in ("R", "AL") and _has(font, ord(letter)) for letter in text)
+
+
+def codes_of(text: str, font: str) -> str:
+    """The codes of a font for a text that is read to the right, letter by letter."""
+    return "".join(str(_shaped(letter, font, True, language_spoken().local).glyphs) for letter in text)
 
 
 @lru_cache(maxsize=4096)
@@ -58,7 +97,7 @@ def missing_letters(text: str) -> str:
     >>> missing_letters("madder قرمز 羊毛 དཀར")
     'དཀར'
     """
-    return "".join(dict.fromkeys(letter for letter in text if _font_of(letter, TEXT) is None))
+    return "".join(dict.fromkeys(letter for letter in text if _font_of(letter, TEXT, TEXT) is None))
 
 
 def cut_line(text: str, size: float, room: float) -> str:
@@ -78,24 +117,28 @@ def two_lines(text: str, size: float, room: float) -> tuple[str, str]:
     return " ".join(words[:count]), " ".join(words[count:])
 
 
-@lru_cache(maxsize=4096)
-def _parts(text: str) -> tuple[_Part, ...]:
+def _parts(text: str, base: str = TEXT, rightward: bool | None = None) -> tuple[_Part, ...]:
     """The parts of a line from left to right."""
+    return _all_parts(text, base, rightward, language_spoken().local)
+
+
+@lru_cache(maxsize=4096)
+def _all_parts(text: str, base: str, rightward: bool | None, local: bool) -> tuple[_Part, ...]:
     register_fonts()
-    if all(_font_of(letter, TEXT) == TEXT for letter in text):
-        return (_Part(text, TEXT, text, pdfmetrics.stringWidth(text, TEXT, 1.0)),)
+    if all(_font_of(letter, base, base) == base for letter in text):
+        return (_Part(text, base, text, pdfmetrics.stringWidth(text, base, 1.0)),)
     parts: list[_Part] = []
-    for run, rightward in visual_runs(text):
-        shaped = [_shaped(piece, font, rightward) for piece, font in _pieces(run)]
-        parts += shaped if rightward else shaped[::-1]
+    for run, to_right in visual_runs(text, rightward):
+        shaped = [_shaped(piece, font, to_right, local) for piece, font in pieces(run, base)]
+        parts += shaped if to_right else shaped[::-1]
     return tuple(parts)
 
 
-def _pieces(text: str) -> Iterator[tuple[str, str]]:
-    """The parts of one font, in reading order."""
-    piece, current = "", TEXT
+def pieces(text: str, base: str = TEXT) -> Iterator[tuple[str, str]]:
+    """The parts of one font, in reading order; base: the first font of letters without a script of their own."""
+    piece, current = "", base
     for letter in text:
-        font = _font_of(letter, current) or TEXT
+        font = _font_of(letter, current, base) or base
         if font != current and piece:
             yield piece, current
             piece = ""
@@ -103,13 +146,13 @@ def _pieces(text: str) -> Iterator[tuple[str, str]]:
     yield piece, current
 
 
-def _font_of(letter: str, current: str) -> str | None:
+def _font_of(letter: str, current: str, base: str) -> str | None:
     """The font of a letter; blanks, joiners and marks stay in the current one. None: no font has it."""
     code = ord(letter)
     if (letter in JOINERS or letter == " " or unicodedata.combining(letter)) and _has(current, code):
         return current
-    own = next((font for font, ranges in _SCRIPTS.items() if any(a <= code <= b for a, b in ranges)), TEXT)
-    return next((font for font in (own, TEXT, HAN, HANGUL) if _has(font, code)), None)
+    own = next((font for font, ranges in _SCRIPTS.items() if any(a <= code <= b for a, b in ranges)), base)
+    return next((font for font in (own, base, TEXT, HAN, HANGUL) if _has(font, code)), None)
 
 
 def _has(font: str, code: int) -> bool:
@@ -117,15 +160,18 @@ def _has(font: str, code: int) -> bool:
     return code in pdfmetrics.getFont(font).face.charToGlyph
 
 
-def _shaped(text: str, name: str, rightward: bool) -> _Part:
-    """A part of one font and direction, shaped."""
+def _shaped(text: str, name: str, rightward: bool, local: bool) -> _Part:
+    """A part of one font and direction, shaped.
+
+    local  with local forms, which a font may have by default
+    """
     font = pdfmetrics.getFont(name)
     buffer = uharfbuzz.Buffer()
     buffer.add_str(text)
     buffer.guess_segment_properties()
     buffer.direction = "ltr" if rightward else "rtl"
     buffer.cluster_level = uharfbuzz.BufferClusterLevel.MONOTONE_CHARACTERS
-    uharfbuzz.shape(_harfbuzz_font(name), buffer)
+    uharfbuzz.shape(_harfbuzz_font(name), buffer, {"locl": local})
     begins = sorted({info.cluster for info in buffer.glyph_infos})
     ends = dict(zip(begins, [*begins[1:], len(text)], strict=True))
     codes, places = [], []

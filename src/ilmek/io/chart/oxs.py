@@ -1,5 +1,5 @@
 """Knot charts as OXS, the open XML charts of cross-stitch programs: a full stitch for a knot, a three-quarter stitch in
-two colours for two half knots.
+two colours for two half knots, bare cloth for a cell without a knot.
 
     <chart>
       <properties software="ilmek" chartwidth chartheight stitchesperinch stitchesperinch_y palettecount .../>
@@ -7,7 +7,7 @@ two colours for two half knots.
       <fullstitches>  <stitch x y palindex/>  </fullstitches>                    x to the right, y down, both from 0
       <partstitches>  <partstitch x y palindex1 palindex2 direction/>  </partstitches>     left and right half knots
       <backstitches/> ...                                                        empty
-      <ilmek facts overlay/>                                                     all facts of the chart
+      <ilmek facts overlay cells/>                                               all facts of the chart
     </chart>
 
 Other programs ignore the element `ilmek`. Format: the specification of UrsaSoftware, which made it, as extended by
@@ -19,8 +19,10 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.overlay import HALF
 from ilmek.io.carpet_facts import chart_facts
+from ilmek.io.cells_text import cells_text
 from ilmek.io.overlay_text import overlay_text
 from ilmek.io.picture import METRE
 from ilmek.progress import SILENT, Progress
@@ -62,10 +64,11 @@ def _lines(chart: Chart) -> Iterator[str]:
     in_halves = {(mark.row, mark.column) for mark in halves}
     for number, row in enumerate(chart.knots):
         ends = [f'{number}" palindex="{yarn + 1}"/>\n' for yarn in range(len(chart.yarns))]
-        stitches = [begin + ends[yarn] for begin, yarn in zip(begins, row.tolist(), strict=True)]
-        yield "".join(
-            stitches if not halves else [one for at, one in enumerate(stitches) if (number, at) not in in_halves]
-        )
+        stitches = [begin + ends[yarn] for begin, yarn in zip(begins, row.tolist(), strict=True) if yarn != NO_KNOT]
+        if halves:
+            knots = [at for at, yarn in enumerate(row.tolist()) if yarn != NO_KNOT]
+            stitches = [one for at, one in zip(knots, stitches, strict=True) if (number, at) not in in_halves]
+        yield "".join(stitches)
     yield "  </fullstitches>\n  <partstitches>\n"
     for row, column, _, second in halves:
         colours = {"palindex1": int(chart.knots[row, column]) + 1, "palindex2": second + 1}
@@ -74,6 +77,8 @@ def _lines(chart: Chart) -> Iterator[str]:
     for empty in ("backstitches", "ornaments_inc_knots_and_beads", "commentboxes"):
         yield f"  <{empty}/>\n"
     facts = {"facts": chart_facts(chart), "overlay": overlay_text(chart.overlay, chart.columns)}
+    if chart.cells is not None:
+        facts["cells"] = cells_text(chart.cells)
     yield f"  {_element('ilmek', facts)}\n</chart>\n"
 
 

@@ -2,7 +2,7 @@
 
 A full stitch is a knot. A three-quarter stitch (direction 1, 2) is a half knot in each of its colours, left and right,
 over the cell's full stitch where it has one colour. A half stitch (direction 3, 4), whose thread crosses the cell, is a
-knot. A cell, or a half of one, without a stitch is bare cloth, on which no knot is tied.
+knot. A cell without a stitch is bare cloth, flat weave in the carpet; one with a stitch on one half alone is refused.
 
 The file is untrusted: no document type, hence no entities; bounded size, depth, grid and palette. It is parsed in
 blocks; every element is checked as it comes.
@@ -19,7 +19,9 @@ from xml.parsers import expat
 import numpy as np
 
 from ilmek.arrays import Indices, Int
+from ilmek.carpet.cells import PLAIN_GROUND, all_knots
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.exact import has_grid, of_grid
 from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
@@ -29,6 +31,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import IlmekError, PictureError, is_printable, shortened
 from ilmek.io.carpet_facts import ChartFacts, chart_of_facts, read_facts
+from ilmek.io.cells_text import read_cells
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS
 from ilmek.io.data_text import LONGEST_NAME
 from ilmek.io.overlay_text import read_overlay
@@ -81,8 +84,8 @@ def read_chart_oxs(
 
     size, quality  of the carpet, for a chart of another program; default: as of a drawing
     ground         colour of the knots in cells without a stitch, `#rrggbb`: a yarn of the palette or one more, "ground"
-    Raises PictureError for a file that is no such chart or exceeds the limits, and for cells without a stitch where no
-    ground is given; CarpetError for a grid that no carpet of the size or the quality has; Cancelled.
+    Raises PictureError for a file that is no such chart or exceeds the limits, and for cells with a stitch on one half
+    where no ground is given; CarpetError for a grid that no carpet of the size or the quality has; Cancelled.
     """
     reader = _Reader()
     try:
@@ -116,7 +119,7 @@ class _Reader:
         self.depth = 0
         self.palette: dict[int, tuple[str, str]] = {}  # name and colour by index
         self.left_out: Counter[tuple[str, str]] = Counter()
-        self.facts = self.overlay = self.software = ""
+        self.facts = self.overlay = self.cells = self.software = ""
         self._stitches: Int[np.ndarray, "layers rows columns"] | None = None
         self._parser: Any = expat.ParserCreate()
         self._parser.buffer_text = True
@@ -154,8 +157,9 @@ class _Reader:
             raise _FaultError(given, allowed=f"x 0 to {columns - 1}, y 0 to {rows - 1}")
         full, left, right = self._stitches[:, 1:, 1:] if beyond else self._stitches[:, :rows, :columns]
         left, right = np.where(left, left, full), np.where(right, right, full)
-        if bare := int(np.count_nonzero((left == 0) | (right == 0))):
-            filled = self._ground(ground, bare, left.size)
+        bare = (left == 0) | (right == 0) if ground is not None else (left == 0) != (right == 0)
+        if not self.cells and bare.any():
+            filled = self._ground(ground, int(np.count_nonzero(bare)), left.size)
             left[left == 0], right[right == 0] = filled, filled
         return _Stitches(left, right), ("its stitches are numbered from 1",) if beyond else ()
 
@@ -163,8 +167,8 @@ class _Reader:
         """The palette's index of the yarn for cells without a stitch. Raises _FaultError where none is given."""
         if ground is None:
             raise _FaultError(
-                f"{bare} of its {counted(cells, 'cell')} have no stitch, or half of one: that is bare cloth",
-                allowed="a knot in every cell: there is no carpet without pile in places",
+                f"{bare} of its {counted(cells, 'cell')} have a stitch on one half: the other is bare cloth",
+                allowed="a stitch on both halves of a cell, or on none: that is flat weave",
                 do="give the colour of these knots, as --ground '#ffffff'",
             )
         colour = ground.removeprefix("#")
@@ -192,7 +196,7 @@ class _Reader:
         elif name == "properties":
             self._properties(given)
         elif name == "ilmek":
-            self.facts, self.overlay = given.get("facts", ""), given.get("overlay", "")
+            self.facts, self.overlay, self.cells = (given.get(key, "") for key in ("facts", "overlay", "cells"))
         elif name in _LEFT_OUT:
             self.left_out[_LEFT_OUT[name]] += 1
 
@@ -254,6 +258,8 @@ def _chart(
         try:
             return _own(reader, stitches), notes
         except IlmekError as error:
+            if reader.cells and not stitches.left.all():
+                raise
             notes = (*notes, f"its data of ilmek cannot be used ({error.given}); it is read as that of another program")
     yarns, position = _yarns(reader, stitches)
     knots, seconds = position[stitches.left], position[stitches.right]
@@ -262,7 +268,11 @@ def _chart(
     grid = (int(knots.shape[0]), int(knots.shape[1]))
     if size is None or quality is None or not has_grid(grid, size, quality):
         size, quality = of_grid(grid, None if quality else size, quality)
-    chart = chart_of_facts(knots, ChartFacts(size, quality, "symmetric", yarns), "an OXS chart")
+    bare = stitches.left == 0
+    cells = all_knots(*grid).woven(bare, PLAIN_GROUND).merged()
+    if cells is not None:
+        notes = (*notes, f"{counted(int(bare.sum()), 'cell')} without a stitch: flat weave; --ground makes them knots")
+    chart = chart_of_facts(knots, ChartFacts(size, quality, "symmetric", yarns), "an OXS chart", cells)
     overlay = overlay_of(KnotMark(row, column, HALF, second) for row, column, second in halves)
     return replace(chart, overlay=overlay), (*notes, "its palette is the yarn list")
 
@@ -273,13 +283,16 @@ def _own(reader: _Reader, stitches: _Stitches) -> Chart:
     colours = [f"#{colour}" for index, (_, colour) in sorted(reader.palette.items()) if index > 0]
     if colours != [yarn.hex for yarn in facts.yarns]:
         raise _FaultError("the palette was changed")
-    knots = (stitches.left - 1).astype(np.uint8)
+    knots = (stitches.left - 1).astype(np.uint8)  # bare cloth: NO_KNOT
+    cells = read_cells(reader.cells, knots)
+    if cells is not None and not np.array_equal(cells.tied, knots != NO_KNOT):
+        raise _FaultError("the stitches were changed")
     overlay = read_overlay(reader.overlay, knots, len(facts.yarns))
     expected, halves = stitches.left.copy(), overlay.kinds == HALF
     expected[overlay.rows[halves], overlay.columns[halves]] = overlay.seconds[halves] + 1
     if not np.array_equal(expected, stitches.right):
         raise _FaultError("the stitches were changed")
-    return replace(chart_of_facts(knots, facts, "an OXS chart of ilmek"), overlay=overlay)
+    return replace(chart_of_facts(knots, facts, "an OXS chart of ilmek", cells), overlay=overlay)
 
 
 def _yarns(reader: _Reader, stitches: _Stitches) -> tuple[tuple[Yarn, ...], Indices]:

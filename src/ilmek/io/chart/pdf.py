@@ -18,6 +18,7 @@ from ilmek.io.chart.printing import PLAIN, Printing, printed_file, title_of
 from ilmek.io.chart.sheets import SheetLayout, cut
 from ilmek.io.chart.symbols import symbols
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 
 def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, printing: Printing = PLAIN) -> None:
@@ -27,7 +28,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pr
     """
     plan = chart_cut(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    with printed_file(path, f"Knot chart: {title_of(chart)}", printing.digits) as canvas:
+    with printed_file(path, Sentence("chart.title", name=title_of(chart)), printing) as canvas:
         draw_overview(canvas, chart, plan)
         draw_legend(canvas, chart, inks, printing)
         for sheet in plan.sheets():

@@ -1,8 +1,9 @@
-"""Knot charts as indexed PNG: one pixel per knot, one palette entry per yarn.
+"""Knot charts as indexed PNG: one pixel per cell, one palette entry per yarn; a cell without a knot has the last entry,
+which is transparent.
 
 The pHYs chunk has the knots per metre in both directions, so that viewers that use it show true proportions. Text
 chunks have the title, as JSON under `ilmek-chart` all facts of the chart (`carpet_facts`), and under `ilmek-overlay`
-its half knots and jufti knots (`overlay_text`).
+its half knots and jufti knots (`overlay_text`), under `ilmek-cells` its map of cells (`cells_text`).
 """
 
 import io
@@ -16,17 +17,20 @@ from PIL import Image, UnidentifiedImageError
 from PIL.PngImagePlugin import PngInfo
 
 from ilmek.arrays import Indices
+from ilmek.carpet.cells import Cells
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import PictureError
 from ilmek.io.carpet_facts import chart_facts, chart_of_facts, read_facts
+from ilmek.io.cells_text import cells_text, read_cells
 from ilmek.io.overlay_text import overlay_text, read_overlay
 from ilmek.io.picture import METRE
 from ilmek.io.picture_file import DamagedError, MeteredBytes, check_structure, pillow_settings, read_bytes, shortened
 from ilmek.progress import SILENT, Cancelled, Progress
 
-KEY, OVERLAY_KEY = "ilmek-chart", "ilmek-overlay"
+KEY, OVERLAY_KEY, CELLS_KEY = "ilmek-chart", "ilmek-overlay", "ilmek-cells"
 _CHUNKS = 1_000_000
 """Reads allowed of a chart: Pillow writes 64 kB in a chunk, and reads it in four pieces."""
 
@@ -63,10 +67,14 @@ def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> No
     info.add_itxt(KEY, chart_facts(chart))
     if len(chart.overlay):
         info.add_itxt(OVERLAY_KEY, overlay_text(chart.overlay, chart.columns))
-    palette = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)
+    if chart.cells is not None:
+        info.add_itxt(CELLS_KEY, cells_text(chart.cells), zip=True)
+    bare = NO_KNOT in chart.knots
+    palette = chart.colour_table[: None if bare else len(chart.yarns)]
+    clear = {"transparency": b"\xff" * NO_KNOT + b"\0"} if bare else {}
     dots = (chart.quality.across * METRE, chart.quality.along * METRE)
     with CountedFile(path, chart.knots.size, progress) as file:
-        chart_picture(chart.knots, palette).save(file, format="PNG", pnginfo=info, dpi=dots)
+        chart_picture(chart.knots, palette).save(file, format="PNG", pnginfo=info, dpi=dots, **clear)
 
 
 def begins_chart_png(begin: bytes) -> bool:
@@ -93,9 +101,10 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
                 facts = read_facts(str(texts.get(KEY, "")))
                 palette = picture.getpalette("RGB") or []
                 knots = np.array(picture, dtype=np.uint8)
-        _require_yarns(knots, palette, facts.yarns)
+        cells = read_cells(str(texts.get(CELLS_KEY, "")), knots)
+        _require_yarns(knots, palette, facts.yarns, cells)
         overlay = read_overlay(str(texts.get(OVERLAY_KEY, "")), knots, len(facts.yarns))
-        chart = replace(chart_of_facts(knots, facts, "a knot chart of ilmek"), overlay=overlay)
+        chart = replace(chart_of_facts(knots, facts, "a knot chart of ilmek", cells), overlay=overlay)
     except (MemoryError, Cancelled):
         raise
     except UnidentifiedImageError as error:
@@ -108,9 +117,9 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
     return chart
 
 
-def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn]) -> None:
+def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn], cells: Cells | None) -> None:
     """Raise DamagedError unless every knot has a yarn, of the colour that the palette has for it."""
-    if knots.max() >= len(yarns):
+    if (knots if cells is None else knots[cells.tied]).max() >= len(yarns):
         raise DamagedError("a knot has no yarn")
     colours = [channel for yarn in yarns for channel in yarn.srgb]
     if palette[: len(colours)] != colours:

@@ -1,8 +1,9 @@
-"""The PDF files of a chart: how they are opened and closed, and the digits of their numbers."""
+"""The PDF files of a chart: how they are opened and closed, their language and the digits of their numbers."""
 
 import math
+import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -13,23 +14,34 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import Mounting
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.io.chart.lettering import draw_line, is_plain, line_width
 from ilmek.io.chart.symbols import STRONG, register_fonts
 from ilmek.records import record
+from ilmek.sentences import DEFAULT, LATIN, WEAVERS, Sentence, in_language, language_spoken, noun, translated
+from ilmek.units import cm, format_number
 
-DIGITS = {"latin": "0123456789", "fa": "۰۱۲۳۴۵۶۷۸۹", "ar": "٠١٢٣٤٥٦٧٨٩"}
-"""Digits 0 to 9 by the language: Persian and Urdu (fa), Arabic (ar). The fonts of the printed files have them."""
+DIGITS = {"latin": LATIN} | {code: row.digits for code, row in WEAVERS.items() if row.digits != LATIN}
+"""Digits 0 to 9 by the language that writes with them. The fonts of the printed files have them."""
+
+_BETWEEN = re.compile(r"(?<=[۰-۹٠-٩])[.\u202f](?=[۰-۹٠-٩])")
+_SIGNS = {".": "٫", "\u202f": "٬"}
+"""Decimal point and mark of thousands between Arabic digits."""
 
 
 @record
 class Printing:
     """What the printed files of a chart have besides it.
 
-    digits  of DIGITS      bill  the yarn to buy      mounting  of the warps; None: neither is printed
+    digits    of DIGITS; "": those of the language       language  of WEAVERS
+    bill      the yarn to buy      mounting  of the warps; None: neither is printed
     """
 
-    digits: str = "latin"
+    digits: str = ""
     bill: YarnBill | None = None
     mounting: Mounting | None = None
+    language: str = DEFAULT
 
 
 PLAIN = Printing()
@@ -37,27 +49,69 @@ PLAIN = Printing()
 
 
 class PrintCanvas(Canvas):  # type: ignore[misc]
-    """A canvas that writes numbers in the digits of a script; symbols and names stay as they are."""
+    """A canvas of the language that is spoken, in any script, with the digits of one; symbols and names stay as they
+    are.
 
-    def __init__(self, path: Path, digits: str, **more: object) -> None:
+    unit      points in a unit of length of the file
+    leftward  whether lines begin at the right side of the page
+    """
+
+    def __init__(self, path: Path, digits: str = "", **more: object) -> None:
         super().__init__(str(path), pageCompression=1, invariant=1, **more)
-        self._digits = str.maketrans(DIGITS["latin"], DIGITS[digits])
+        language = language_spoken()
+        self.unit, self.leftward = 1, language.leftward
+        self._digits = str.maketrans(LATIN, DIGITS[digits] if digits else language.digits)
 
     def numerals(self, text: str) -> str:
-        """A text with the digits of this canvas."""
-        return text.translate(self._digits)
+        """A text in the language and with the digits of this canvas."""
+        said = translated(text) if isinstance(text, Sentence) else text
+        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said.translate(self._digits))
+
+    def side(self, x: float, width: float = 0.0) -> float:
+        """The left edge of what is as wide and lies x from the side of the page where lines begin."""
+        return self._pagesize[0] * self.unit - x - width if self.leftward else x
 
     def drawString(self, x: float, y: float, text: str) -> None:
-        """As of reportlab, in the digits of this canvas."""
-        super().drawString(x, y, self.numerals(text))
+        """As of reportlab, in the language and the digits of this canvas."""
+        self._draw(x, y, self.numerals(text), 0.0)
 
     def drawRightString(self, x: float, y: float, text: str) -> None:
-        """As of reportlab, in the digits of this canvas."""
-        super().drawRightString(x, y, self.numerals(text))
+        """As of reportlab, in the language and the digits of this canvas."""
+        self._draw(x, y, self.numerals(text), 1.0)
 
     def drawCentredString(self, x: float, y: float, text: str) -> None:
-        """As of reportlab, in the digits of this canvas."""
-        super().drawCentredString(x, y, self.numerals(text))
+        """As of reportlab, in the language and the digits of this canvas."""
+        self._draw(x, y, self.numerals(text), 0.5)
+
+    def write(self, x: float, y: float, text: str) -> None:
+        """Write a text that begins x from the side where lines begin."""
+        self._draw(self.side(x), y, self.numerals(text), float(self.leftward))
+
+    def write_to(self, x: float, y: float, text: str) -> None:
+        """Write a text that ends x from the side where lines begin."""
+        self._draw(self.side(x), y, self.numerals(text), float(not self.leftward))
+
+    def name_of(self, name: str) -> str:
+        """The name of a yarn: in the language of this canvas where it is one of ours, else as it is."""
+        known = noun(name)
+        return self.numerals(known) if isinstance(known, Sentence) else name
+
+    def write_name(self, x: float, y: float, name: str, size: float) -> None:
+        """Write a name in its own direction and with its own digits, x from the side where lines begin."""
+        draw_line(self, self.side(x, line_width(name, size)), y, name, size)
+
+    def text_width(self, text: str) -> float:
+        """Width of a text as it is written in the present font [pt]."""
+        return line_width(self.numerals(text), self._fontsize, self._fontname, not self.leftward)
+
+    def _draw(self, x: float, y: float, text: str, share: float) -> None:
+        """Draw a text with a share of its width before x."""
+        font, size, rightward = self._fontname, self._fontsize, not self.leftward
+        if is_plain(text, font):
+            super().drawString(x - share * self.stringWidth(text, font, size) if share else x, y, text)
+            return
+        draw_line(self, x - share * line_width(text, size, font, rightward), y, text, size, font, rightward)
+        self.setFont(font, size)
 
     def draw_letters(self, x: float, y: float, text: str) -> None:
         """A text from x to the right, with its own digits."""
@@ -70,14 +124,27 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
 
 def title_of(chart: Chart) -> str:
     """The name of a chart's size, or its columns and rows."""
-    return chart.size.name or f"{chart.columns} × {chart.rows} knots"
+    return noun(chart.size.name) or Sentence("chart.grid", columns=chart.columns, rows=chart.rows)
+
+
+def size_of(size: CarpetSize) -> str:
+    """Width and length in cm, after the name of the size where it has one."""
+    sides = (format_number(side / cm) for side in (size.width, size.length))
+    text = Sentence("chart.size", **dict(zip(("width", "length"), sides, strict=True)))
+    return Sentence("chart.named-size", name=noun(size.name), size=text) if size.name else text
+
+
+def quality_of(quality: Quality) -> Sentence:
+    """Knots across and along per dm."""
+    return Sentence("chart.quality", across=format_number(quality.across / 10), along=format_number(quality.along / 10))
 
 
 @contextmanager
-def printed_file(path: Path, title: str, digits: str = "latin", **more: object) -> Iterator[PrintCanvas]:
+def printed_file(path: Path, title: str, printing: Printing | None = None, **more: object) -> Iterator[PrintCanvas]:
     """The canvas of a PDF file, which is saved at the end; the same pages make the same file.
 
-    more  of reportlab's Canvas: pagesize (default: A4), pdfVersion
+    printing  default: in the language that is spoken
+    more      of reportlab's Canvas: pagesize (default: A4), pdfVersion
     Streams are bytes, not base-85 text: smaller, and several times faster.
     """
     register_fonts()
@@ -85,11 +152,15 @@ def printed_file(path: Path, title: str, digits: str = "latin", **more: object) 
     before = config.useA85
     config.useA85 = 0
     try:
-        canvas = PrintCanvas(path, digits, **{"pagesize": A4, **more})
-        canvas.setTitle(title)
-        canvas.setCreator("ilmek")
-        yield canvas
-        canvas.save()
+        with nullcontext() if printing is None else in_language(printing.language):
+            spoken = {} if printing is None else {"digits": printing.digits, "lang": printing.language}
+            canvas = PrintCanvas(path, **{"pagesize": A4, **spoken, **more})
+            canvas.setTitle(canvas.numerals(title))
+            canvas.setCreator("ilmek")
+            if canvas.leftward:
+                canvas.setViewerPreference("Direction", "R2L")
+            yield canvas
+            canvas.save()
     finally:
         config.useA85 = before
 

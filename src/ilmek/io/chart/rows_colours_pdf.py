@@ -10,10 +10,11 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.lettering import cut_line, draw_line
+from ilmek.io.chart.lettering import cut_line, is_plain
 from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 _LEFT, _TOP, _LOW = 42.0, 800.0, 40.0
 _SIZE, _LINE = 7.0, 9.0
@@ -41,7 +42,7 @@ class ColourLine:
 
 def _row_lines(number: int, runs: tuple[Run, ...], columns: int, direction: str) -> Iterator[ColourLine]:
     for rightward in directions(number, direction):
-        yield ColourLine(f"Row {number} {'→' if rightward else '←'}")
+        yield ColourLine(Sentence("rows.row", number=number, arrow="→" if rightward else "←"))
         for yarn, spans in spans_by_yarn(runs).items():
             words = [span_text(span, columns, rightward) for span in (spans if rightward else spans[::-1])]
             knots, line = sum(span.knots for span in spans), ""
@@ -77,22 +78,20 @@ def write_colours_pdf(
     pages  their number, of `colour_pages`
     """
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    halves = "; L, R: half knots on left, right warps" if chart.overlay.halves else ""
-    marks = halves + ("; j: jufti knots" if chart.overlay.juftis else "")
-    with printed_file(path, f"Rows to weave by: {title_of(chart)}", printing.digits) as canvas:
+    halves = Sentence("rows.half-cells") if chart.overlay.halves else ""
+    juftis = Sentence("rows.jufti-cells") if chart.overlay.juftis else ""
+    about = Sentence("rows.cells", marks=Sentence("rows.marks", halves=halves, juftis=juftis))
+    with printed_file(path, Sentence("rows.title", name=title_of(chart)), printing) as canvas:
         draw_legend(canvas, chart, inks, printing)
         for number, lines in enumerate(colour_pages(chart, direction), start=1):
             canvas.setFillGray(0.1)
             canvas.setFont(STRONG, 11)
-            canvas.drawString(_LEFT, _TOP, "Rows by colours")
+            canvas.write(_LEFT, _TOP, Sentence("rows.colours"))
             canvas.setFont(TEXT, 7)
             canvas.setFillColorRGB(*_GREY)
-            canvas.drawRightString(A4[0] - _LEFT, _TOP, f"{title_of(chart)}, page {number} of {pages}")
-            canvas.drawString(
-                _LEFT,
-                _TOP - 12.0,
-                f"Row 1 is the first that is woven. Cells count from the left (→) or the right (←) edge{marks}.",
-            )
+            page = Sentence("rows.page", name=title_of(chart), page=number, pages=pages)
+            canvas.write_to(A4[0] - _LEFT, _TOP, page)
+            canvas.write(_LEFT, _TOP - 12.0, about)
             for line, text in enumerate(lines):
                 _draw_line(canvas, text, chart, inks, _TOP - 30.0 - line * _LINE)
             canvas.showPage()
@@ -106,19 +105,25 @@ def _draw_line(canvas: PrintCanvas, line: ColourLine, chart: Chart, inks: Inks, 
         canvas.setLineWidth(0.4)
         canvas.line(_LEFT, y + 7.0, A4[0] - _LEFT, y + 7.0)
         canvas.setStrokeGray(0.2)
-        canvas.rect(_LEFT, y - 0.8, 6.5, 6.5, stroke=1, fill=0)
+        canvas.rect(canvas.side(_LEFT, 6.5), y - 0.8, 6.5, 6.5, stroke=1, fill=0)
         canvas.setFont(STRONG, 8)
-        canvas.drawString(_LEFT + 12.0, y, line.text)
+        canvas.write(_LEFT + 12.0, y, line.text)
         return
     if line.knots:
         canvas.setFillColorRGB(*inks.fills[line.yarn])
         canvas.setStrokeGray(0.4)
         canvas.setLineWidth(0.3)
-        canvas.rect(_LEFT + 12.0, y - 1.2, 12.0, 7.4, stroke=1, fill=1)
+        canvas.rect(canvas.side(_LEFT + 12.0, 12.0), y - 1.2, 12.0, 7.4, stroke=1, fill=1)
         canvas.setFillGray(0.1)
         canvas.setFont(SIGNS, _SIZE)
-        canvas.draw_letters(_LEFT + 28.0, y, inks.symbols[line.yarn])
-        canvas.drawRightString(_LEFT + _CELLS_AT - 8.0, y, str(line.knots))
-        draw_line(canvas, _LEFT + 36.0, y, cut_line(chart.yarns[line.yarn].name, 6.0, 50.0), 6.0)
+        canvas.draw_letters(canvas.side(_LEFT + 28.0, ADVANCE * _SIZE), y, inks.symbols[line.yarn])
+        canvas.write_to(_LEFT + _CELLS_AT - 8.0, y, str(line.knots))
+        name = canvas.name_of(chart.yarns[line.yarn].name)
+        canvas.write_name(_LEFT + 36.0, y, cut_line(name, 6.0, 50.0), 6.0)
     canvas.setFont(SIGNS, _SIZE)
-    canvas.drawString(_LEFT + _CELLS_AT, y, line.text)
+    x = _LEFT + _CELLS_AT
+    for word in (
+        [line.text] if not canvas.leftward and is_plain(canvas.numerals(line.text), SIGNS) else line.text.split()
+    ):
+        canvas.write(x, y, word.replace("-", "–") if canvas.leftward else word)
+        x += ADVANCE * _SIZE * (len(word) + 2)

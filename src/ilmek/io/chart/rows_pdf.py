@@ -11,11 +11,13 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
+from ilmek.io.chart.lettering import draw_line
 from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 _GREY = (0.36, 0.40, 0.44)
 _BAND = 1 << 20
@@ -37,7 +39,7 @@ def write_rows_pdf(
     """
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    with printed_file(path, f"Rows to weave by: {title_of(chart)}", printing.digits) as canvas:
+    with printed_file(path, Sentence("rows.title", name=title_of(chart)), printing) as canvas:
         draw_legend(canvas, chart, inks, printing)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
@@ -59,7 +61,7 @@ def _strips(chart: Chart, plan: RowsLayout) -> Iterator[Strip]:
             runs = runs_of(line)
             for part in range(plan.parts):
                 begin = part * plan.part_columns
-                label = f"part {part + 1} of {plan.parts}" if plan.parts > 1 else ""
+                label = Sentence("rows.part", part=part + 1, parts=plan.parts) if plan.parts > 1 else ""
                 yield Strip(row, runs, begin, min(begin + plan.part_columns, plan.columns), label)
 
 
@@ -70,10 +72,11 @@ def _draw_page(
     canvas = setter.canvas
     number, name, direction, marks = titles
     canvas.setPageSize((plan.width, plan.height))
-    rows = f"rows {strips[0].number}–{strips[-1].number}"
+    rows = {"first": strips[0].number, "last": strips[-1].number}
     canvas.bookmarkPage(f"rows-{number}")
-    canvas.addOutlineEntry(rows, f"rows-{number}", 0)
-    _write_head(canvas, plan, (f"{rows} of {plan.rows}", f"{name}, page {number} of {plan.count}"), direction, marks)
+    canvas.addOutlineEntry(canvas.numerals(Sentence("rows.some", **rows)), f"rows-{number}", 0)
+    page = Sentence("rows.page", name=name, page=number, pages=plan.count)
+    _write_head(canvas, plan, (Sentence("rows.some-of", **rows, rows=plan.rows), page), direction, marks)
     top = plan.height - MARGIN - HEAD
     wide = plan.width - 2 * MARGIN - LEFT - RIGHT
     for line, strip in enumerate(strips):
@@ -85,43 +88,30 @@ def _draw_page(
         canvas.saveState()
         canvas.translate(MARGIN + LEFT, low + below)
         draw_strip(setter, strip, plan, inks, reading)
-        canvas.setFont(SIGNS, SMALLEST)
         canvas.setFillColorRGB(*_GREY)
         if strip.stop == plan.columns:
-            canvas.draw_letters(0.0, -below + 0.3, knots_in_words(strip, inks, wide, canvas.numerals))
+            counts = knots_in_words(strip, inks, wide, canvas.numerals)
+            draw_line(canvas, 0.0, -below + 0.3, counts, SMALLEST, SIGNS, rightward=True)
         canvas.restoreState()
     canvas.showPage()
 
 
-def _reads(direction: str) -> str:
-    return {
-        "right": "Read from left to right.",
-        "left": "Read from right to left.",
-        "alternate": "Read odd rows from left to right, even rows from right to left.",
-    }.get(direction, "Black numbers count from the left, grey ones from the right.")
-
-
 def _about_marks(chart: Chart) -> str:
     """How the half knots and jufti knots of a chart are written; "" where it has none."""
-    half = "2½ over AC: 2 cells with half knots, A on the left warp, C on the right."
-    jufti = "3j over A: 3 jufti knots, each on four warps, two cells (bars)."
-    return " ".join([*([half] if chart.overlay.halves else []), *([jufti] if chart.overlay.juftis else [])])
+    half = Sentence("rows.half") if chart.overlay.halves else ""
+    jufti = Sentence("rows.jufti") if chart.overlay.juftis else ""
+    return Sentence("chart.two", first=half, second=jufti) if half and jufti else half or jufti
 
 
 def _write_head(canvas: PrintCanvas, plan: RowsLayout, titles: tuple[str, str], direction: str, marks: str) -> None:
     top = plan.height - MARGIN
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 12)
-    canvas.drawString(MARGIN, top - 11.0, titles[0][0].upper() + titles[0][1:])
+    canvas.write(MARGIN, top - 11.0, titles[0])
     canvas.setFont(TEXT, 8)
     canvas.setFillColorRGB(*_GREY)
-    canvas.drawRightString(plan.width - MARGIN, top - 11.0, titles[1])
+    canvas.write_to(plan.width - MARGIN, top - 11.0, titles[1])
     canvas.setFont(TEXT, 7)
-    canvas.drawString(
-        MARGIN,
-        top - 24.0,
-        f"Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a symbol alone: one "
-        f"knot. {_reads(direction)}",
-    )
-    canvas.drawString(MARGIN, top - 33.0, marks)
-    canvas.drawRightString(plan.width - MARGIN, MARGIN - FOOT / 2, "Below each row: its knots of each yarn.")
+    canvas.write(MARGIN, top - 24.0, Sentence("rows.how", reading=Sentence(f"rows.{direction}")))
+    canvas.write(MARGIN, top - 33.0, marks)
+    canvas.write_to(plan.width - MARGIN, MARGIN - FOOT / 2, Sentence("rows.below"))

@@ -5,9 +5,11 @@ from dataclasses import dataclass, field
 
 from reportlab.pdfbase.pdfmetrics import stringWidth
 
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.lettering import codes_of, is_plain, line_width, pieces
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEFT, RULER, SMALLEST, STRIP, RowsLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
@@ -47,11 +49,18 @@ class Typesetter:
     def code(self, text: str) -> str:
         """The operators of PDF that show a text (ISO 32000-1, 9.4), font included."""
         if text not in self._encoded:
-            made = self.canvas.beginText()
-            made.setFont(SIGNS, self.size)
-            made._curSubset = -1  # each text names its font, so that texts can follow in any order
-            self._encoded[text] = made._formatText(text)
+            parts = [(text, SIGNS)] if is_plain(text, SIGNS) else pieces(text, SIGNS)
+            self._encoded[text] = " ".join(self._piece(*part) for part in parts)
         return self._encoded[text]
+
+    def _piece(self, text: str, font: str) -> str:
+        """A part of a text, in a font whose digits are spaced as those of SIGNS."""
+        made = self.canvas.beginText()
+        made.setFont(font, self.size)
+        made._curSubset = -1  # each text names its font, so that texts can follow in any order
+        shown = text if font == SIGNS else codes_of(text, font)
+        space = ADVANCE * self.size - stringWidth(shown, font, self.size) / len(text)
+        return f"{space:.3f} Tc {made._formatText(shown)}"
 
     def show(self, texts: list[tuple[float, float, str]]) -> None:
         """Write texts, each centred on x, with its baseline on y."""
@@ -219,10 +228,11 @@ def knots_in_words(strip: Strip, inks: Inks, wide: float, numerals: Callable[[st
         counts[run.yarn] = counts.get(run.yarn, 0) + run.knots
         if run.mark == HALF:
             counts[run.second] = counts.get(run.second, 0) + run.knots
+    counts.pop(NO_KNOT, None)
     words = [f"{inks.symbols[yarn]} {numerals(str(count))}" for yarn, count in sorted(counts.items())]
     for shown in range(len(words), 0, -1):
-        rest = f"   and {numerals(str(len(words) - shown))} more" if shown < len(words) else ""
+        rest = f"   … +{numerals(str(len(words) - shown))}" if shown < len(words) else ""
         text = "   ".join(words[:shown]) + rest
-        if stringWidth(text, SIGNS, SMALLEST) <= wide:
+        if line_width(text, SMALLEST, SIGNS, rightward=True) <= wide:
             return text
     return ""

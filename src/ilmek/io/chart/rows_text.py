@@ -18,12 +18,14 @@ import numpy as np
 
 from ilmek.arrays import Int32, UInt8
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.printing import quality_of, size_of
+from ilmek.io.chart.symbols import NO_SIGN, signs_of_codes, symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import DEFAULT, Sentence, in_language, noun, translated
 
 MAGIC = "ilmek-rows 1"
 """First line: name and version of the format."""
@@ -39,25 +41,23 @@ _PER_CELL, _PER_LINE = 20, 32
 each colour.
 """
 
-_EXPLANATION = {
-    "runs": (
-        "# 12A: 12 knots of yarn A. 2½AC: 2 cells with two half knots each, A on the warp that is met first, C on the",
-        "# other. 1jB: 1 jufti knot of B, on four warps, in two cells. A colon: before a symbol that is a digit.",
-    ),
-    "colours": (
-        "# A 54: the 54 knots of yarn A of the row, by the numbers of their cells from the edge where the row begins.",
-        "# 16-17L: half knots on the left warps of cells 16 and 17; R: on the right ones. 18-19j: a jufti knot.",
-    ),
-}
 
-
-def write_rows_text(path: Path, chart: Chart, split: str, direction: str = "both", progress: Progress = SILENT) -> None:
+def write_rows_text(
+    path: Path,
+    chart: Chart,
+    split: str,
+    direction: str = "both",
+    progress: Progress = SILENT,
+    *,
+    language: str = DEFAULT,
+) -> None:
     """Write the rows of a chart to `path`.
 
-    split  runs or colours      direction  of DIRECTIONS
+    split  runs or colours      direction  of DIRECTIONS      language  of the comments and of the yarns' names
     """
     with path.open("wb") as file:
-        file.write(header(chart, split, direction).encode("utf-8"))
+        with in_language(language):
+            file.write(header(chart, split, direction).encode("utf-8"))
         for done, part in row_bands(chart, split, direction):
             file.write(part)
             progress(done)
@@ -67,11 +67,13 @@ def header(chart: Chart, split: str, direction: str) -> str:
     """The lines before the rows."""
     size, quality, tied = chart.size, chart.quality, chart.tied
     signs = symbols(chart.yarns)
+    about = Sentence("rows.text", size=size_of(size), quality=quality_of(quality), knot=noun(chart.knot))
+    comments = (about, *(Sentence(f"rows.text-{part}") for part in ("signs", split, f"more-{split}")))
+    if split == "runs" and chart.cells:
+        comments = (*comments, Sentence("rows.text-plain", sign=NO_SIGN))
     lines = [
         MAGIC,
-        f"# {size}, {quality}, {chart.knot} knot; row 1 is the first that is woven, at the lower edge.",
-        "# >: read from left to right; <: from right to left. A line that begins with a blank continues the one above.",
-        *_EXPLANATION[split],
+        *(f"# {translated(comment)}" for comment in comments),
         f"size {size.width!r} {size.length!r}",
         f"quality {quality.across!r} {quality.along!r}",
         f"knot {chart.knot}",
@@ -81,14 +83,14 @@ def header(chart: Chart, split: str, direction: str) -> str:
         f"direction {direction}",
     ]
     for index, yarn in enumerate(chart.yarns):
-        name = " ".join(printable(yarn.name).split())
+        name = " ".join(printable(translated(noun(yarn.name))).split())
         lines.append(f"yarn {signs[index]} {yarn.hex} {tied.of(index)} {name}")
     return "\n".join(lines) + "\n\n"
 
 
 def row_bands(chart: Chart, split: str, direction: str) -> Iterator[tuple[float, bytes]]:
     """The text of the rows in parts, each with the share of the rows that is then done."""
-    glyphs, widths = _glyphs(symbols(chart.yarns))
+    glyphs, widths = _glyphs(signs_of_codes(chart.yarns))
     mode, step = DIRECTIONS.index(direction), max(1, _BAND // chart.columns)
     for first in range(0, chart.rows, step):
         stop = min(first + step, chart.rows)
@@ -299,7 +301,7 @@ def _write_colours(  # noqa: PLR0917
             if not _read_in(mode, first + row, leftward):
                 continue
             _collect(codes[row], leftward, spans, heads)
-            for yarn in range(glyphs.shape[0]):
+            for yarn in range(NO_KNOT):
                 if heads[yarn, 0] < 0:
                     continue
                 knots, span = 0, heads[yarn, 0]

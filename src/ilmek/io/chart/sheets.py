@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from ilmek.errors import CarpetError
 from ilmek.records import record
+from ilmek.sentences import Sentence
 
 OVERLAP = 3
 """Number of knots of the next sheet that are shown too."""
@@ -38,9 +39,9 @@ class ChartSheet:
     neighbours: dict[str, int]
 
     @property
-    def title(self) -> str:
+    def title(self) -> Sentence:
         """The part of the carpet shown, rows and knots counted from 1."""
-        return f"rows {self.low + 1}–{self.high}, knots {self.left + 1}–{self.right}"
+        return Sentence("chart.part", low=self.low + 1, high=self.high, left=self.left + 1, right=self.right)
 
 
 @dataclass(frozen=True, slots=True)

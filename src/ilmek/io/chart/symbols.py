@@ -14,6 +14,7 @@ from typing import Any
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.yarn import Yarn
 
 SYMBOLS = (
@@ -22,6 +23,9 @@ SYMBOLS = (
     "БДЖЗИЛФЦЧШЭЮЯ☀☂☎☘☠☮☯☺☻☾♀♂♔♕♖♗♘♙♚♛♜♝♞♟♪♫⚀⚁⚂⚃⚄⚅✂✈✉✎✓✗✚✠✢✦✧✪✭✱✶✹❀❄❖❤$€£¥¢¶ßæðøþđłŋ«»¿¡"
 )[:255]
 """Symbols by the yarn's number in its list, less 1; a list has at most 255 yarns."""
+
+NO_SIGN = "·"
+"""Sign of a cell without a knot."""
 
 SIGNS, TEXT, STRONG = "ilmek-signs", "ilmek-text", "ilmek-strong"
 ARABIC, HEBREW, DEVANAGARI = "ilmek-arabic", "ilmek-hebrew", "ilmek-devanagari"
@@ -65,6 +69,11 @@ def symbols(yarns: Sequence[Yarn]) -> str:
     return "".join(found[index] if index in found else next(free) for index in range(len(yarns)))
 
 
+def signs_of_codes(yarns: Sequence[Yarn]) -> str:
+    """The sign of each code of a chart's knots: the symbols, and NO_SIGN for the code of no knot."""
+    return symbols(yarns).ljust(CODES, NO_SIGN)
+
+
 class ShapedFont(TTFont):  # type: ignore[misc]
     """A font of which any glyph can be drawn; those that no character stands for have codes of their own.
 
@@ -94,6 +103,11 @@ class ShapedFont(TTFont):  # type: ignore[misc]
     def _text(self, found: re.Match[str]) -> str:
         text = self.texts.get(int(found[1], 16))
         return found[0] if text is None else f"> <{text.encode('utf-16-be').hex().upper()}>"
+
+
+def font_file(name: str) -> Path:
+    """The file of a font."""
+    return _FONTS / _FILES[name]
 
 
 @lru_cache(maxsize=1)

@@ -15,10 +15,11 @@ from ilmek.carpet.chart import Chart
 from ilmek.io.chart.grid import draw_cells
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_entry
-from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, quality_of, size_of, title_of
 from ilmek.io.chart.sheets import SheetLayout, require_wall
 from ilmek.io.chart.symbols import STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence, noun
 from ilmek.units import format_number
 
 WALL_CELL = 7.4
@@ -69,8 +70,9 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pri
     """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    page, title = (sheet.width / sheet.unit, sheet.height / sheet.unit), f"Knot chart: {title_of(chart)}"
-    with printed_file(path, title, printing.digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
+    page, title = (sheet.width / sheet.unit, sheet.height / sheet.unit), Sentence("chart.title", name=title_of(chart))
+    with printed_file(path, title, printing, pagesize=page, pdfVersion=(1, 6)) as canvas:
+        canvas.unit = sheet.unit
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
         _write_head(canvas, chart, sheet)
         canvas.saveState()
@@ -96,15 +98,11 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pri
 def _write_head(canvas: PrintCanvas, chart: Chart, sheet: WallSheet) -> None:
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 16)
-    canvas.drawString(_SIDE, sheet.height - 34.0, f"Knot chart: {title_of(chart)}")
+    canvas.write(_SIDE, sheet.height - 34.0, Sentence("chart.title", name=title_of(chart)))
     canvas.setFont(TEXT, 9)
     width, length = (format_number(side * 100, 4) for side in sheet.lengths)
-    canvas.drawString(
-        _SIDE,
-        sheet.height - 50.0,
-        f"{chart.size}, {chart.quality}, {chart.knot} knot; rows are counted from the bottom, knots from the left; "
-        f"sheet {width} × {length} cm",
-    )
+    carpet = {"size": size_of(chart.size), "quality": quality_of(chart.quality), "knot": noun(chart.knot)}
+    canvas.write(_SIDE, sheet.height - 50.0, Sentence("chart.wall", **carpet, width=width, length=length))
 
 
 def _set_unit(canvas: PrintCanvas, unit: int) -> None:

@@ -110,7 +110,7 @@ class Feeder:
             self._waits = None
             return
         since = self._waits = now if self._waits is None else self._waits
-        if (request, knots) == (row, row * self._setup.columns):
+        if (request, knots) == (row, self._setup.knots_before(row)):
             if now - since >= REQUEST:
                 self.journal.give(row)
         elif now - since > SILENCE:

@@ -169,14 +169,14 @@ def _whole_rows(records: RecordArray, first: int, last: int, programme: LoomProg
     if np.any(np.diff(rows.astype(np.int64)) < 0):
         return False
     bounds = np.searchsorted(rows, np.arange(first, last + 1))
-    for begin, end in zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True):
+    for number, (begin, end) in enumerate(zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True), start=first):
         row = records[begin:end]
         knots = row[row["kind"] == RecordKind.KNOT]
         heads, numbers = knots["head"], knots["number"]
         order = np.argsort(heads, kind="stable")
         counts = np.bincount(heads, minlength=setup.heads)
         starts = np.repeat(np.cumsum(counts) - counts, counts)
-        right = len(knots) == setup.columns and np.array_equal(numbers[order], np.arange(len(knots)) - starts)
+        right = len(knots) == setup.knots_of(number) and np.array_equal(numbers[order], np.arange(len(knots)) - starts)
         ends = row["code"][row["kind"] == RecordKind.ROW_END]
         if not right or not np.array_equal(ends, np.arange(len(RowEnd))):
             return False

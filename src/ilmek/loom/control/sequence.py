@@ -73,7 +73,7 @@ class Sequence:
     @property
     def knots(self) -> int:
         """Knots in the carpet."""
-        return self.row * self._programme.setup.columns + sum(self.upcoming)
+        return self._programme.setup.knots_before(self.row) + sum(self.upcoming)
 
     def of_head(self, head: int) -> Tie | None:
         """The knot that a head ties next in this phase; None: it waits for the others, or for the loom."""

@@ -5,8 +5,8 @@ from enum import Enum
 
 import numpy as np
 
-from ilmek.arrays import Int64, IntArray
-from ilmek.loom.operations import LoomSetup, RowOperations
+from ilmek.arrays import BoolArray, Int64, IntArray
+from ilmek.loom.operations import EMPTY, LoomSetup, RowOperations
 from ilmek.loom.proof import kernel
 from ilmek.records import value_record
 
@@ -58,7 +58,8 @@ def _sentence(setup: LoomSetup, row: RowOperations, fault: tuple[int, int, int, 
         return f"{knots} of head {head + 1}, tube {one + 1}: the tube has no yarn"
     if kind == kernel.OTHER_YARN:
         tube, yarn = divmod(one, 256)
-        return f"{knots} of head {head + 1}: tube {tube + 1} has yarn {yarn + 1}, the chart has yarn {other + 1}"
+        chart = "no knot" if other == EMPTY else f"yarn {other + 1}"
+        return f"{knots} of head {head + 1}: tube {tube + 1} has yarn {yarn + 1}, the chart has {chart}"
     if kind == kernel.YARN_ENDS:
         return f"{knots} of head {head + 1}: the package of tube {one + 1} (yarn {other + 1}) has ended before"
     return (
@@ -93,9 +94,9 @@ def _meeting(
         yield RuleFault(row.number, FaultyPart.ROW, 0, what)
 
 
-def missing_knots(number: int, tied: IntArray) -> Iterator[RuleFault]:
-    """The knots of a row that no head ties. tied: of each column, the row in which it was last tied."""
-    missing = np.flatnonzero(tied != number)
+def missing_knots(number: int, done: BoolArray) -> Iterator[RuleFault]:
+    """The knots of a row that no head ties. done: of each column, whether its knot is tied, or it has none."""
+    missing = np.flatnonzero(~done)
     for run in np.split(missing, np.flatnonzero(np.diff(missing) != 1) + 1):
         if len(run):
             yield RuleFault(number, FaultyPart.ROW, 0, f"{_knots(run)} of the chart: no head ties {_them(run)}")

@@ -100,7 +100,7 @@ def prove_phases(
         slowest = 0
         for head in range(heads):
             slowest = max(slowest, _tie(table, (head, phase), (state, rules, found), spans))
-        _compare(spans, rules.spacing, found)
+        _compare(spans, rules.spacing, table.chart.shape[0], found)
         total += slowest
     return total
 
@@ -136,6 +136,8 @@ def _tie(
             left[tube] -= 1
         else:
             _note_knot(table, (head, k, column, tube), state, found, latest)
+    if first == last:  # it stands aside, with room for it
+        low = high = NO_KNOT
     spans[0, head], spans[1, head], spans[2, head], spans[3, head] = low, high, low_knot, high_knot
     state.column[head], state.tube[head] = column, aligned
     state.sums[CHANGES, head] += changes
@@ -174,8 +176,8 @@ def _note_knot(
 
 
 @compiled
-def _compare(spans: IntArray, spacing: int, found: ProofFindings) -> None:
-    """Prove that the spans of all heads with a position are apart."""
+def _compare(spans: IntArray, spacing: int, columns: int, found: ProofFindings) -> None:
+    """Prove that the spans of all heads that tie are apart, with room for those that do not, within the row."""
     before = -1
     for head in range(spans.shape[1]):
         if spans[0, head] < 0:
@@ -183,7 +185,12 @@ def _compare(spans: IntArray, spacing: int, found: ProofFindings) -> None:
         if before >= 0 and spans[0, head] - spans[1, before] < (head - before) * spacing:
             distance = spans[0, head] - spans[1, before]
             _note(found, (MEETING, before, spans[3, before], spans[2, head], head, distance))
+        if before < 0 and spans[0, head] < head * spacing:
+            _note(found, (MEETING, 0, NO_KNOT, spans[2, head], head, spans[0, head]))
         before = head
+    last = spans.shape[1] - 1
+    if 0 <= before < last and columns - 1 - spans[1, before] < (last - before) * spacing:
+        _note(found, (MEETING, before, spans[3, before], NO_KNOT, last, columns - 1 - spans[1, before]))
 
 
 @compiled

@@ -146,7 +146,7 @@ class _Prover:
 
     def _is_whole(self, number: int, row: RowOperations, chart: IntArray) -> bool:
         """Whether the arrays of a row belong together; a row where they do not is proved no further."""
-        knots, setup = len(row.columns), self.setup
+        knots, setup, tied = len(row.columns), self.setup, chart[chart != EMPTY]
         what = ""
         if row.number != number:
             what = f"is numbered {row.number + 1}, must be {number + 1}"
@@ -154,8 +154,10 @@ class _Prover:
             what = f"has knots of {row.heads} heads, {int(row.counts.sum())} by its counts and {knots} in all"
         elif len(row.tubes) != knots or len(chart) != setup.columns:
             what = f"has {knots} knots, {len(row.tubes)} tubes and {len(chart)} knots of the chart"
-        elif int(chart.max()) >= len(setup.yarns):
-            what = f"has yarn {int(chart.max()) + 1} in its chart, the list has yarns 1 to {len(setup.yarns)}"
+        elif len(tied) != setup.knots_of(number):
+            what = f"has {len(tied)} knots in its chart, must have {setup.knots_of(number)}"
+        elif int(tied.max(initial=0)) >= len(setup.yarns):
+            what = f"has yarn {int(tied.max()) + 1} in its chart, the list has yarns 1 to {len(setup.yarns)}"
         if what:
             self._note(RuleFault(number, FaultyPart.ROW, 0, f"the row {what}"))
         return not what
@@ -179,8 +181,9 @@ class _Prover:
         self.time += int(prove_phases(table, (begun, row.phases), self._state, self._rules, self._found))
         self.knots += len(columns)
         self._take_faults(row)
-        if not (self._state.tied == row.number).all():
-            for fault in missing_knots(row.number, self._state.tied):
+        done = (self._state.tied == row.number) | (chart == EMPTY)
+        if not done.all():
+            for fault in missing_knots(row.number, done):
                 self._note(fault)
 
     def _take_faults(self, row: RowOperations) -> None:

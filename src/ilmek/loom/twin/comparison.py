@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.errors import LoomError
-from ilmek.loom.operations import ROW_ENDS, LoomProgramme, RowEnd
+from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomProgramme, RowEnd
 from ilmek.loom.twin.woven import Woven
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record, value_record
@@ -143,13 +143,13 @@ class _Found:
         counts, yarns, ends = woven.counts(row), woven.yarns(row), woven.ends(row)
         self.digest.update(yarns.tobytes())
         behind = row < self.work_row or bool(ends.any())
-        tied = counts > 0
+        tied, bare = counts > 0, expected == EMPTY
         self.knots += int(np.count_nonzero(tied))
-        self.rows += bool(np.all(ends >= 1) and np.all(tied))
+        self.rows += bool(np.all(ends >= 1) and np.all(tied | bare))
         if not behind:
-            self.to_come += int(np.count_nonzero(~tied))
+            self.to_come += int(np.count_nonzero(~tied & ~bare))
         kinds = (
-            (WovenFaultKind.MISSING, ~tied & behind),
+            (WovenFaultKind.MISSING, ~tied & ~bare & behind),
             (WovenFaultKind.DOUBLE, counts > 1),
             (WovenFaultKind.WRONG_YARN, tied & (yarns != expected)),
         )

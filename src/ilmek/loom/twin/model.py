@@ -121,7 +121,7 @@ class PlantModel:
         limits = self.end_limits[operation]
         if not limits:
             return None
-        index = self.setup.knots + len(ROW_ENDS) * row + operation
+        index = self.setup.cells + len(ROW_ENDS) * row + operation
         return _drawn(limits, draw(self.rates.seed, index, attempt))
 
 

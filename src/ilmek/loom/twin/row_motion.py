@@ -39,7 +39,7 @@ def timed_row(row: RowOperations, durations: Durations) -> TimedRow:
     """The knots of a row in time, without stops; the tube of each head's first knot is aligned before."""
     heads, counts = row.heads, np.ascontiguousarray(row.counts, np.int64)
     first = np.ascontiguousarray(row.starts[:-1, None] + np.cumsum(counts, axis=1) - counts)
-    by_tube = np.zeros((heads, int(row.tubes.max()) + 1), np.int64)
+    by_tube = np.zeros((heads, int(row.tubes.max(initial=0)) + 1), np.int64)
     columns, tubes = np.ascontiguousarray(row.columns, np.int32), np.ascontiguousarray(row.tubes, np.uint8)
     knots = RowKnots(columns, tubes, first, counts, by_tube)
     states = np.full((heads, 2), -1, np.int64)
@@ -65,7 +65,7 @@ def row_in_motion(setup: LoomSetup, row: RowOperations) -> Animation:
     wide = setup.columns * pitch
     tied = np.array([int(np.count_nonzero(timed.ends <= now)) for now in time], float)
     strokes = (
-        MovingStroke(_knots(row, timed, time, pitch), "yarn", "knots"),
+        MovingStroke(_knots(row, timed, time, setup), "yarn", "knots"),
         *(
             MovingStroke(_head(head, row, timed, time, setup), "path", "heads", closed=True)
             for head in range(row.heads)
@@ -85,12 +85,12 @@ def row_in_motion(setup: LoomSetup, row: RowOperations) -> Animation:
     return Animation(still, axis, time, strokes, (), period=total, readings=(Reading("knots", tied),))
 
 
-def _knots(row: RowOperations, timed: TimedRow, time: FloatArray, pitch: float) -> ComplexArray:
+def _knots(row: RowOperations, timed: TimedRow, time: FloatArray, setup: LoomSetup) -> ComplexArray:
     """Ticks as high as the share of their knots that is tied, (frames, 3 ticks)."""
-    columns = len(row.columns)
+    columns, pitch = setup.columns, 2 * setup.warp_pitch
     ticks = min(columns, MOST_TICKS)
     tick = row.columns.astype(np.int64) * ticks // columns
-    sizes = np.bincount(tick, minlength=ticks)
+    sizes = np.maximum(np.bincount(tick, minlength=ticks), 1)
     shares = np.stack([np.bincount(tick[timed.ends <= now], minlength=ticks) / sizes for now in time])
     foot = (np.arange(ticks) + 0.5) / ticks * columns * pitch
     top = foot + 1j * _TICK * columns * pitch * shares

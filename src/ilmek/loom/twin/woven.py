@@ -35,7 +35,7 @@ class Woven:
             raise LoomError(f"a woven carpet of {len(memory)} bytes", allowed=f"{woven_size(setup)} bytes")
         self.rows, self.columns = setup.rows, setup.columns
         self._tubes, self._first = setup.tubes, _first_head(setup)
-        view, words, knots = memoryview(memory), 8 * _words(setup), 2 * setup.knots
+        view, words, knots = memoryview(memory), 8 * _words(setup), 2 * setup.cells
         self._words = view[:words].cast("q")
         self._knots = view[words : words + knots].cast("H")
         self._ends = view[words + knots :].cast("B")
@@ -104,7 +104,7 @@ class Woven:
 
 def woven_size(setup: LoomSetup) -> int:
     """Bytes of the memory of a woven carpet."""
-    return 8 * _words(setup) + 2 * setup.knots + len(ROW_ENDS) * setup.rows
+    return 8 * _words(setup) + 2 * setup.cells + len(ROW_ENDS) * setup.rows
 
 
 def state_words(state: PlantState) -> tuple[int, ...]:

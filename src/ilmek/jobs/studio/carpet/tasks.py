@@ -22,7 +22,7 @@ from ilmek.carpet.sizes import parse_size
 from ilmek.carpet.specks import specks as lone_patches
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.errors import IlmekError, ParameterError
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.symbols import signs_of_codes
 from ilmek.io.picture import SMALLEST
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.io.yarn_file import default_yarns
@@ -84,7 +84,7 @@ def chart(request: ChartRequest, context: Context) -> Binary:
     chart_result = _charted(request, context, KeptStages(request.draft))
     source, pixels = _source(chart_result.source, request.source)
     about = replace(_answer(chart_result, request.draft, time.perf_counter() - began), source=source)
-    return packed(about, chart_result.chart.knots.tobytes(), *pixels)
+    return packed(about, chart_result.chart.shaded.tobytes(), *pixels)
 
 
 def specks(request: SpecksRequest, context: Context) -> Binary:
@@ -141,7 +141,7 @@ def row(request: RowRequest, context: Context) -> RowAnswer:
     if not 1 <= request.row <= made.rows:
         raise ParameterError(f"row {request.row}", allowed=f"1 to {made.rows}, from the lower edge")
     runs = tuple(
-        RowRun(run.first + 1, run.cells, run.knots, run.yarn, run.mark, run.second)
+        RowRun(run.first + 1, run.cells, run.knots, min(run.yarn, len(made.shades) - 1), run.mark, run.second)
         for run in row_runs(made, request.row)
     )
     right, left = (_row_text(made, request.row, direction) for direction in ("right", "left"))
@@ -150,7 +150,7 @@ def row(request: RowRequest, context: Context) -> RowAnswer:
 
 def _row_text(made: Chart, number: int, direction: str) -> str:
     """A row by its runs, like `12A 3B 2½AC`."""
-    signs = symbols(made.yarns)
+    signs = signs_of_codes(made.yarns)
     words = []
     for step in row_steps(made, number, "runs", direction):
         sign, second = signs[step.yarn], signs[step.second] if "½" in count_text(step) else ""
@@ -234,8 +234,8 @@ def _source(shown: Rgb | None, known: str) -> tuple[SourcePicture | None, tuple[
 
 
 def _yarns(made: Chart) -> tuple[ChartYarn, ...]:
-    signs = symbols(made.yarns)
-    return tuple(ChartYarn(yarn.name, yarn.hex, signs[index]) for index, yarn in enumerate(made.yarns))
+    signs = signs_of_codes(made.yarns)
+    return tuple(ChartYarn(yarn.name, yarn.hex, signs[index]) for index, yarn in enumerate(made.shades))
 
 
 def _needed(result: ChartResult) -> tuple[ChartYarn, ...]:

@@ -1,0 +1,135 @@
+"""Rules of a price and of a weaver's wage, and what follows from them.
+
+    unit price = cost (1 + margin),   net = quantity · unit price (1 - discount),   total = net (1 + tax)
+
+Each is rounded to a hundredth of the currency, half up, as it is printed: a sum of printed amounts is a printed amount.
+
+    wage = knots/unit · amount (1 + supplement · colours beyond those that are free)
+
+The wage of a region is counted in units of its own: 1,000 knots, 6,000 (a day's work), 12,000 or 14,000.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
+
+CENT = Decimal("0.01")
+
+
+def cents(amount: float | Decimal) -> Decimal:
+    """An amount rounded to hundredths, half up.
+
+    >>> str(cents(2.675)), str(cents(0.125))
+    ('2.68', '0.13')
+    """
+    return Decimal(repr(amount) if isinstance(amount, float) else amount).quantize(CENT, ROUND_HALF_UP)
+
+
+@dataclass(frozen=True, slots=True)
+class QuotedPrice:
+    """The price of equal carpets; discount: a share [-]."""
+
+    cost: Decimal
+    unit: Decimal
+    quantity: int
+    discount: float
+    net: Decimal
+    tax: Decimal
+
+    @property
+    def total(self) -> Decimal:
+        """With tax."""
+        return self.net + self.tax
+
+
+@dataclass(frozen=True, slots=True)
+class PriceRules:
+    """margin on the cost, tax on the net price [-]; discounts: from a number of carpets of the order on, a share.
+
+    valid      days for which a quotation holds
+    finishing  cost of washing, shearing and inspection of a square metre; None: that of the loom's rates, in euros
+    """
+
+    margin: float = 0.30
+    tax: float = 0.0
+    discounts: tuple[tuple[int, float], ...] = ()
+    valid: int = 30
+    finishing: float | None = None
+
+    def discount(self, carpets: int) -> float:
+        """The discount of an order of so many carpets [-].
+
+        >>> PriceRules(discounts=((2, 0.03), (5, 0.08))).discount(4)
+        0.03
+        """
+        return max((share for least, share in self.discounts if carpets >= least), default=0.0)
+
+    def quoted(self, cost: float, quantity: int, carpets: int) -> QuotedPrice:
+        """The price of equal carpets of a cost each, in an order of so many carpets.
+
+        >>> price = PriceRules(0.25, 0.19, ((2, 0.1),)).quoted(100.0, 2, 2)
+        >>> str(price.unit), str(price.net), str(price.tax), str(price.total)
+        ('125.00', '225.00', '42.75', '267.75')
+        """
+        spent, share = cents(cost), self.discount(carpets)
+        unit = cents(spent * (1 + Decimal(repr(self.margin))))
+        net = cents(quantity * unit * (1 - Decimal(repr(share))))
+        return QuotedPrice(spent, unit, quantity, share, net, cents(net * Decimal(repr(self.tax))))
+
+
+@dataclass(frozen=True, slots=True)
+class WagePayment:
+    """A payment after a row, of the knots since the one before: earned, less its part of the advance."""
+
+    row: int
+    knots: int
+    earned: Decimal
+    deducted: Decimal
+
+    @property
+    def paid(self) -> Decimal:
+        """What is paid out."""
+        return self.earned - self.deducted
+
+
+@dataclass(frozen=True, slots=True)
+class WageRules:
+    """A wage by knots: amount per `knots`, a supplement for each colour beyond `colours` [-], an advance [-].
+
+    rows    after which a payment is due; 0: once, at the end      region  whose rules they are
+    """
+
+    amount: float
+    knots: int = 1000
+    colours: int = 0
+    supplement: float = 0.0
+    advance: float = 0.0
+    rows: int = 100
+    region: str = ""
+
+    def rate(self, colours: int) -> float:
+        """What a knot earns in a design of so many colours."""
+        more = max(0, colours - self.colours) if self.supplement else 0
+        return self.amount / self.knots * (1 + self.supplement * more)
+
+    def wage(self, knots: int, colours: int) -> Decimal:
+        """The wage of a carpet.
+
+        >>> str(WageRules(9.0, 10_000, colours=8, supplement=0.02).wage(135_360, 10))
+        '126.70'
+        """
+        return cents(self.rate(colours) * knots)
+
+    def payments(self, in_rows: Sequence[int], colours: int) -> tuple[WagePayment, ...]:
+        """The payments of a carpet of so many knots in each row, row 1 first; together they are its wage."""
+        whole = self.wage(sum(in_rows), colours)
+        advance = cents(whole * Decimal(repr(self.advance)))
+        step = self.rows or len(in_rows)
+        payments, earned, deducted = list[WagePayment](), Decimal(0), Decimal(0)
+        for first in range(0, len(in_rows), step):
+            row = min(first + step, len(in_rows))
+            due = self.wage(sum(in_rows[:row]), colours)
+            back = cents(advance * due / whole) if whole else Decimal(0)
+            payments.append(WagePayment(row, sum(in_rows[first:row]), due - earned, back - deducted))
+            earned, deducted = due, back
+        return tuple(payments)

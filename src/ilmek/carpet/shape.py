@@ -1,0 +1,241 @@
+"""Shape of a carpet: which cells of its grid are knots, which plain weave, and which are cut away.
+
+A cell is inside where its middle is. With x and y from the middle of the carpet, width w and length l,
+
+    round    x² + y² <= (w/2)²,   w = l                              area pi w²/4
+    oval     (2x/w)² + (2y/l)² <= 1                                  area pi w l/4
+    octagon  |x| + |y| <= (w + l)/2 - c,   c = min(w, l)/(2 + √2)    area w l - 2 c²; of equal sides where w = l
+    stair    the two corners of the lower edge rounded, r = min(w, l)/2          area w l - (2 - pi/2) r²
+    runner   both ends round, r = w/2, or r = l/2 across             area max(w, l) 2r - (4 - pi) r²
+
+At the height of a row's middle the outline of the cells is at most half a knot from that of the shape.
+"""
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+from scipy import ndimage
+
+from ilmek.arrays import BoolArray, FloatArray
+from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN_GROUND, CellKind, all_knots
+from ilmek.carpet.chart import Chart, used_first
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.errors import CarpetError, ParameterError, did_you_mean, shortened
+from ilmek.params import Params, kind
+from ilmek.units import counted, parse_quantity
+
+RECTANGLE, PICTURE = "rectangle", "picture"
+LEAST_PART = 3
+"""Least width and height of a part of a shape, in knots: a narrower one does not hold in the ground."""
+
+_PLAIN = re.compile(r"(\d{1,6})(?:-(\d{1,6}))?(?:/(\d{1,6})-(\d{1,6}))?")
+_PILE = re.compile(r"(.+?)=(?:([0-9.]+ ?[a-zµ]+)(?: +(loop|cut))?|(loop|cut))")
+
+Inside = Callable[[FloatArray, FloatArray, float, float], BoolArray]
+"""Whether points are inside of a shape: x across and y up from its middle, width and length [m]."""
+
+
+def _octagon(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
+    return abs(x) + abs(y) <= (width + length) / 2 - min(width, length) / (2 + math.sqrt(2))
+
+
+def _stair(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
+    radius = min(width, length) / 2
+    aside, below = abs(x) - (width / 2 - radius), -y - (length / 2 - radius)
+    return np.hypot(np.maximum(aside, 0.0), np.maximum(below, 0.0)) <= radius
+
+
+def _runner(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
+    radius = min(width, length) / 2
+    beyond = np.hypot(np.maximum(abs(x) - (width / 2 - radius), 0.0), np.maximum(abs(y) - (length / 2 - radius), 0.0))
+    return beyond <= radius
+
+
+SHAPES: Mapping[str, Inside] = MappingProxyType(
+    {
+        "round": lambda x, y, width, _: np.hypot(x, y) <= width / 2,
+        "oval": lambda x, y, width, length: np.hypot(2 * x / width, 2 * y / length) <= 1,
+        "octagon": _octagon,
+        "stair": _stair,
+        "runner": _runner,
+    }
+)
+"""The shapes with an equation, by name."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeParams(Params):
+    """Shape, flat weave and pile of a carpet."""
+
+    shape: str | None = kind.text(
+        None,
+        doc=f"outline: {', '.join(SHAPES)}; picture: its transparent parts are cut away; or a file, whose opaque or "
+        "light part is the carpet, like outline.svg or mask.png; default: the whole rectangle",
+    )
+    kilim_ends: float = kind.length(
+        0.0, unit="cm", at_least=0.0, at_most=5.0, doc="flat weave at each end, as part of the carpet's length"
+    )
+    flat_weave: str | None = kind.text(
+        None,
+        doc='flat weave without knots: rows from the lower edge, and knots from the left, like "1-12, 40-60/10-30"',
+    )
+    pile: str | None = kind.text(
+        None, doc='height of the pile by yarn, and loops: "Red=6mm, Blue=4mm loop, Ivory=loop"; default: one cut pile'
+    )
+
+    @property
+    def named(self) -> bool:
+        """Whether the shape has an equation."""
+        return self.shape in SHAPES
+
+    @property
+    def file(self) -> str | None:
+        """The file of the outline, if it has one."""
+        return None if self.named or self.shape in (None, RECTANGLE, PICTURE) else self.shape
+
+    def check_together(self) -> None:
+        """Raise ParameterError for a shape that is no name and no file, and for texts that cannot be read."""
+        if self.file is not None and "." not in self.file:
+            names = (RECTANGLE, *SHAPES, PICTURE)
+            hint = did_you_mean(self.file, names)
+            allowed = f"{', '.join(names)}, or a file"
+            raise ParameterError(f"shape {shortened(self.file)!r} is unknown", allowed=allowed, do=hint)
+        plain_areas(self.flat_weave)
+        pile_kinds(self.pile)
+
+
+def plain_areas(text: str | None) -> tuple[tuple[int, int, int | None, int | None], ...]:
+    """The areas of a text: first and last row, from 1 at the lower edge; first and last knot, None: whole rows.
+
+    >>> plain_areas("1-12, 40/10-30")
+    ((1, 12, None, None), (40, 40, 10, 30))
+    """
+    areas = []
+    for part in [] if text is None else text.split(","):
+        found = _PLAIN.fullmatch(part.strip())
+        first, last, left, right = (None if one is None else int(one) for one in found.groups()) if found else (0,) * 4
+        last = first if last is None else last
+        if not first or not last or last < first or (left is not None and not 0 < left <= (right or 0)):
+            given = f"plain area {shortened(part.strip())!r} cannot be read"
+            raise ParameterError(given, allowed="rows from 1, and knots from 1, first to last", do="write 1-12/10-30")
+        areas.append((first, last, left, right))
+    return tuple(areas)
+
+
+def pile_kinds(text: str | None) -> dict[str, CellKind]:
+    """The kinds of the knots of yarns, by the name of the yarn.
+
+    >>> {name: str(kind) for name, kind in pile_kinds("Red=6mm, Blue=4 mm loop").items()}
+    {'Red': 'pile 6 mm, 6 mm', 'Blue': 'pile 4 mm loop, 4 mm, loop'}
+    """
+    kinds: dict[str, CellKind] = {}
+    for part in [] if text is None else text.split(","):
+        found = _PILE.fullmatch(part.strip())
+        if found is None or found[1].strip() in kinds:
+            given = f"pile {shortened(part.strip())!r} cannot be read" if found is None else f"two piles of {found[1]}"
+            raise ParameterError(given, allowed="a yarn of the list, its height, and loop", do="write Red=6mm")
+        height = None if found[2] is None else parse_quantity(found[2], "mm")
+        words = " ".join(filter(None, (found[2], found[3] or found[4])))
+        pile = CellKind(f"pile {words}", height=height, loop="loop" in (found[3], found[4]))
+        kinds[found[1].strip()] = pile if pile.loop or height is not None else PILE
+    return kinds
+
+
+def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None) -> Chart:
+    """The chart with the cells that its shape, flat weave and pile give; what its own cells are already stays.
+
+    outline  of a shape without an equation: which cells are inside, (rows, columns)
+    Raises CarpetError for a round carpet of unequal sides, a part of a shape narrower than LEAST_PART knots, rows and
+    knots that the carpet does not have, and a pile of an unknown yarn.
+    """
+    cells = chart.cells or all_knots(chart.rows, chart.columns)
+    if params.shape is not None:
+        inside = _inside(params.shape, chart) if outline is None else outline
+        require_wide(inside)
+        cells = cells.woven(~inside, CUT_AWAY)
+    plain = _plain(chart, params)
+    if plain.any():
+        cells = cells.woven(plain & ~cells.are(OUTSIDE), PLAIN_GROUND)
+    for name, pile in pile_kinds(params.pile).items():
+        names = [yarn.name for yarn in chart.yarns]
+        index = next((at for at, one in enumerate(names) if one.casefold() == name.casefold()), None)
+        if index is None:
+            hint = did_you_mean(name, names)
+            raise CarpetError(f"the pile of {name!r}: no yarn has this name", allowed=", ".join(names), do=hint)
+        cells = cells.woven((chart.knots == index) & cells.tied, pile)
+    merged = cells.merged()
+    if merged is None:
+        return chart
+    made = replace(chart, cells=merged)
+    return made if made.creel is not None else used_first(made)
+
+
+def _inside(shape: str, chart: Chart) -> BoolArray:
+    """Which cells are inside of a shape with an equation, by their middles."""
+    size = chart.size
+    if shape == RECTANGLE:
+        return np.ones((chart.rows, chart.columns), dtype=bool)
+    if shape == "round" and not math.isclose(size.width, size.length, rel_tol=1e-6):
+        given = f"a round carpet of {size}"
+        raise CarpetError(given, allowed="equal sides", do="--shape oval, or a size like 200x200cm")
+    x = ((np.arange(chart.columns) + 0.5) / chart.columns - 0.5) * size.width
+    y = (0.5 - (np.arange(chart.rows) + 0.5) / chart.rows) * size.length
+    return SHAPES[shape](x[np.newaxis], y[:, np.newaxis], size.width, size.length)
+
+
+def area_of(shape: str, size: CarpetSize) -> float:
+    """The area of a shape with an equation [m²].
+
+    >>> round(area_of("round", CarpetSize(2.0, 2.0)) / math.pi, 12)
+    1.0
+    """
+    width, length = size.width, size.length
+    least, whole = min(width, length), width * length
+    cut = {
+        "round": whole * (1 - math.pi / 4),
+        "oval": whole * (1 - math.pi / 4),
+        "octagon": 2 * (least / (2 + math.sqrt(2))) ** 2,
+        "stair": (2 - math.pi / 2) * (least / 2) ** 2,
+        "runner": (4 - math.pi) * (least / 2) ** 2,
+    }
+    return whole - cut[shape]
+
+
+def require_wide(inside: BoolArray) -> None:
+    """Raise CarpetError for a shape that is empty, or has an island narrower than LEAST_PART knots either way."""
+    if not inside.any():
+        raise CarpetError("the shape has no cell inside", do="take another shape, or a finer quality")
+    square = np.ones((LEAST_PART, LEAST_PART), dtype=bool)
+    islands, _ = ndimage.label(inside, np.ones((3, 3)))
+    kept = ndimage.binary_opening(inside, square)
+    thin = np.setdiff1d(np.unique(islands), np.append(np.unique(islands[kept]), 0))
+    if len(thin):
+        rows, columns = ndimage.find_objects((islands == thin[0]).astype(int))[0]
+        first, last = len(inside) - rows.stop + 1, len(inside) - rows.start
+        where = f"rows {first}..{last}, knots {columns.start + 1}..{columns.stop}"
+        more = "" if len(thin) == 1 else f", and {counted(len(thin) - 1, 'other')}"
+        raise CarpetError(
+            f"the shape has an island too thin to weave, {where}{more}",
+            allowed=f"parts of at least {LEAST_PART} × {LEAST_PART} knots",
+            do="leave it out, widen it, or take a finer quality",
+        )
+
+
+def _plain(chart: Chart, params: ShapeParams) -> BoolArray:
+    """The cells of flat weave. Raises CarpetError for rows and knots that the carpet does not have."""
+    plain = np.zeros((chart.rows, chart.columns), dtype=bool)
+    ends = round(params.kilim_ends * chart.quality.along)
+    if 2 * ends >= chart.rows:
+        allowed = f"less than the carpet's {chart.rows} rows together"
+        raise CarpetError(f"two kilim ends of {ends} rows", allowed=allowed)
+    plain[:ends] = plain[chart.rows - ends :] = True
+    for first, last, left, right in plain_areas(params.flat_weave):
+        if last > chart.rows or (right or 0) > chart.columns:
+            given = f"plain rows {first}-{last}" + (f", knots {left}-{right}" if left else "")
+            raise CarpetError(given, allowed=f"the carpet has {chart.rows} rows of {chart.columns} knots")
+        plain[chart.rows - last : chart.rows - first + 1, (left or 1) - 1 : right or chart.columns] = True
+    return plain

@@ -1,0 +1,1 @@
+"""Papers of an order: quotation, approval sheet, mounting sheet, wages, and the label of a carpet."""

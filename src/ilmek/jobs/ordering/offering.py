@@ -1,0 +1,156 @@
+"""The offer of a planned order: pictures, costs and price of each carpet, and when it is delivered."""
+
+from datetime import datetime, timedelta
+from decimal import Decimal
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.price_rules import WageRules, cents
+from ilmek.carpet.strike_off import SampleWindow, part_of, strike_off_window
+from ilmek.errors import ParameterError
+from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
+from ilmek.jobs.chart import ChartResult
+from ilmek.jobs.plan import PlanResult
+from ilmek.jobs.plan_inputs import PlannedOrder
+from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
+from ilmek.records import record
+from ilmek.sentences import Sentence
+from ilmek.viz.carpet_picture import draw_carpet, shown_size
+from ilmek.viz.room import draw_room
+
+_DETAIL = (0.16, 0.11)
+"""Width and length of the part that is shown at true size [m]."""
+
+_LONGEST, _FINE = 1100, 1500
+"""Pixels along the longer side of the picture of a carpet, and of its part at true size."""
+
+
+@record
+class OrderLine:
+    """An order of the file that a loom weaves: its plan, its chart, how it is offered.
+
+    wage  of the weavers of one carpet, None for a loom that ties itself      energy  of its weaving [J]
+    """
+
+    planned: PlannedOrder
+    charted: ChartResult
+    offered: OfferedCarpet
+    wage: Decimal | None
+    energy: float
+
+    @property
+    def name(self) -> str:
+        """As in the file, with size and colourway."""
+        return self.planned.entry.name
+
+
+def order_lines(plan: PlanResult) -> tuple[OrderLine, ...]:
+    """The orders that a loom weaves. Raises ParameterError for one without a picture, and for a missing price."""
+    pictures: dict[int, ShownCarpet] = {}
+    lines = []
+    for index, planned in enumerate(plan.inputs.orders):
+        if planned.charted is None:
+            given = f"{planned.entry.where}: {planned.entry.name!r} has a programme and no picture"
+            raise ParameterError(given, do="give its picture: papers show the carpet")
+        if planned.possible:
+            shown = pictures.setdefault(id(planned.charted), shown_carpet(planned.charted.chart))
+            lines.append(_line(plan, index, planned.charted, shown))
+    return tuple(lines)
+
+
+def offer_of(plan: PlanResult, lines: tuple[OrderLine, ...]) -> Offer:
+    """The offer of all lines; its date is the begin of the plan."""
+    orders = plan.inputs.orders_file
+    until = orders.start + timedelta(days=orders.price.valid)
+    date, last = (f"{day:%Y-%m-%d}" for day in (orders.start, until))
+    return Offer(orders.customer, date, last, orders.currency, orders.price, tuple(line.offered for line in lines))
+
+
+def shown_carpet(chart: Chart) -> ShownCarpet:
+    """The pictures of a carpet."""
+    drawn = draw_carpet(chart, longest=_LONGEST)
+    sample = strike_off_window(chart)
+    part = part_of(chart, _detail(chart, sample))
+    detail = draw_carpet(part, longest=_FINE).of_pile.image
+    pile = (drawn.pile.left, drawn.pile.top, drawn.pile.width, drawn.pile.height)
+    room = draw_room(drawn.image, *shown_size(chart.size))
+    return ShownCarpet(drawn.image, pile, room, detail, (part.size.width, part.size.length), sample)
+
+
+def _detail(chart: Chart, sample: SampleWindow) -> SampleWindow:
+    """The part at true size: in the middle of the strike-off."""
+    columns = min(sample.columns, max(1, round(_DETAIL[0] * chart.quality.across)))
+    rows = min(sample.rows, max(1, round(_DETAIL[1] * chart.quality.along)))
+    return SampleWindow(
+        sample.top + (sample.rows - rows) // 2, sample.left + (sample.columns - columns) // 2, rows, columns
+    )
+
+
+def _line(plan: PlanResult, index: int, charted: ChartResult, shown: ShownCarpet) -> OrderLine:
+    planned, orders = plan.inputs.orders[index], plan.inputs.orders_file
+    by_hand = all(plan.inputs.looms_file.looms[carpet.loom].hand is not None for carpet in plan.carpets(index))
+    wage = _wage(orders.wage, charted) if by_hand else None
+    costs = _costs(plan, index, charted, wage)
+    cost = float(sum((amount for _, amount in costs), Decimal(0)))
+    carpets = sum(order.entry.quantity for order in plan.inputs.orders)
+    price = orders.price.quoted(cost, planned.entry.quantity, carpets)
+    delivery = max(finished(plan, index))
+    offered = OfferedCarpet(
+        planned.entry.name,
+        planned.entry.design,
+        charted.chart,
+        charted.bill,
+        charted.pile.pile_height,
+        costs,
+        price,
+        f"{delivery:%Y-%m-%d}",
+        shown,
+    )
+    energy = max(planned.fits[carpet.loom].energy for carpet in plan.carpets(index))
+    return OrderLine(planned, charted, offered, wage, energy)
+
+
+def finished(plan: PlanResult, index: int) -> list[datetime]:
+    """When each carpet of an order is finished: washed and dried."""
+    found = []
+    for carpet in plan.carpets(index):
+        steps = plan.inputs.orders[index].fits[carpet.loom].finishing
+        found.append(plan.inputs.time(carpet.end) + timedelta(seconds=sum(step.time or 0.0 for step in steps)))
+    return found
+
+
+def _wage(rules: WageRules | None, charted: ChartResult) -> Decimal | None:
+    return None if rules is None else rules.wage(charted.bill.knots, charted.chart.colours)
+
+
+def _costs(
+    plan: PlanResult, index: int, charted: ChartResult, wage: Decimal | None
+) -> tuple[tuple[Sentence, Decimal], ...]:
+    """The cost of one carpet by cause: the mean of the carpets of the order, which may stand on different looms."""
+    orders, carpets = plan.inputs.orders_file, plan.carpets(index)
+    steps = [step for carpet in carpets for step in plan.steps(carpet)]
+    on_loom = sum(step.cost or 0.0 for step in steps if step.name in ON_LOOM) / len(carpets)
+    finishing = orders.price.finishing
+    if finishing is None:
+        off_loom = sum(_known(step, plan) for step in steps if step.name not in ON_LOOM) / len(carpets)
+    else:
+        off_loom = finishing * charted.chart.size.area
+    yarn = charted.bill.price if charted.bill.currency == orders.currency else None
+    if yarn is None:
+        given = f"{orders.path}: no price of the yarn of {orders.orders[index].name!r} in {orders.currency}"
+        do = "give the order's currency, pile_price, warp_price and weft_price, or prices in its yarn list"
+        raise ParameterError(given, do=do)
+    labour = () if wage is None else ((Sentence("order.cost-wage"), wage),)
+    return (
+        (Sentence("order.cost-yarn"), cents(yarn)),
+        *labour,
+        (Sentence("order.cost-loom"), cents(on_loom)),
+        (Sentence("order.cost-finishing"), cents(off_loom)),
+    )
+
+
+def _known(step: MakingStep, plan: PlanResult) -> float:
+    if step.cost is None:
+        orders = plan.inputs.orders_file
+        given = f"{orders.path}: no price of {step.name} in {orders.currency}"
+        raise ParameterError(given, do=f'write finishing = "12 {orders.currency}" under [price]: of a square metre')
+    return step.cost

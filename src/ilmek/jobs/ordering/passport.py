@@ -1,0 +1,97 @@
+"""The record of a carpet: design, yarns with their lots, fibre, mass, energy, greenhouse gases, rows with days."""
+
+import hashlib
+from collections import defaultdict
+from pathlib import Path
+
+from ilmek.carpet.bill import YarnNeed
+from ilmek.carpet.footprint import FACTORS, emissions
+from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.io.call_state import chart_digest
+from ilmek.jobs.ordering.offering import OrderLine
+from ilmek.jobs.ordering.progress import WovenRows, rows_by_day
+from ilmek.records import JsonObject
+
+
+def identity_of(reference: str, line: OrderLine, number: int) -> str:
+    """The name of a carpet by its order, its line and its number in it: the same for the same carpet."""
+    text = "\n".join((reference, line.name, str(number), chart_digest(line.charted.chart)))
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
+
+
+def carpet_record(reference: str, line: OrderLine, number: int, woven: WovenRows, before: Path) -> JsonObject:
+    """The record of a carpet, SI.
+
+    number  of the carpet in its line, from 1      before  its record that is replaced, whose rows are kept
+    """
+    chart, bill = line.charted.chart, line.charted.bill
+    materials = CarpetYarnParams()
+    fibres: dict[str, float] = defaultdict(float)
+    for need in bill.needs:
+        fibres[_material(need, materials)] += need.kept
+    gases = emissions(_spun(bill.needs, materials), line.energy)
+    return {
+        "identity": identity_of(reference, line, number),
+        "order": reference,
+        "carpet": line.name,
+        "number": number,
+        "of": line.planned.entry.quantity,
+        "design": {
+            "name": line.planned.entry.design,
+            "digest": chart_digest(chart),
+            "rows": chart.rows,
+            "columns": chart.columns,
+            "knots": bill.knots,
+            "knot": chart.knot,
+            "width": chart.size.width,
+            "length": chart.size.length,
+            "across": chart.quality.across,
+            "along": chart.quality.along,
+            "pile_height": line.charted.pile.pile_height,
+        },
+        "yarn": [_yarn(need, materials) for need in bill.needs],
+        "fibre": [
+            {"material": name, "mass": mass, "share": mass / sum(fibres.values())} for name, mass in fibres.items()
+        ],
+        "mass": sum(fibres.values()),
+        "energy": line.energy,
+        "emissions": {
+            "mass": sum(gases.values()),
+            "parts": [
+                {
+                    "name": name,
+                    "mass": mass,
+                    "factor": FACTORS[name].factor,
+                    "unit": f"kg CO2e/{FACTORS[name].unit}",
+                    "source": FACTORS[name].source,
+                }
+                for name, mass in gases.items()
+            ],
+        },
+        "rows": rows_by_day(woven, before, chart),
+    }
+
+
+def _material(need: YarnNeed, yarns: CarpetYarnParams) -> str:
+    """The fibre of a line of the bill; selvedges are of the pile's yarn, ends of the weft's."""
+    return {"warp": yarns.warp, "weft": yarns.weft, "end": yarns.weft}.get(need.use, yarns.pile)
+
+
+def _spun(needs: tuple[YarnNeed, ...], materials: CarpetYarnParams) -> dict[str, float]:
+    """The mass of each material that is spun for the carpet, waste included [kg]."""
+    spun: dict[str, float] = defaultdict(float)
+    for need in needs:
+        spun[_material(need, materials)] += need.mass
+    return spun
+
+
+def _yarn(need: YarnNeed, materials: CarpetYarnParams) -> JsonObject:
+    return {
+        "name": need.bought or need.name,
+        "use": need.use,
+        "material": _material(need, materials),
+        "count": need.count,
+        "knots": need.knots,
+        "mass": need.mass,
+        "lots": [{"lot": number, "from_row": row} for number, row in enumerate((1, *need.lot_rows), 1)],
+    }

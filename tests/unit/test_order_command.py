@@ -1,0 +1,320 @@
+"""`ilmek order` and `ilmek verify`: prices by hand, papers read back, labels, records with a changed byte, bad input."""
+
+import hashlib
+import json
+import re
+import shutil
+from dataclasses import replace
+from decimal import ROUND_HALF_UP, Decimal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pypdf
+import pytest
+from click.testing import CliRunner, Result
+from cryptography.exceptions import InvalidSignature
+from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
+from PIL import Image
+
+from ilmek.api.carpets import read_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colourways import Colourway, recoloured
+from ilmek.carpet.price_rules import WageRules
+from ilmek.carpet.strike_off import part_of, strike_off_window
+from ilmek.cli import main
+from ilmek.errors import CarpetError
+from ilmek.io.call_state import CallState, state_file, write_state
+from ilmek.io.carpet_record import read_record, record_faults
+from ilmek.io.yarn_file import default_yarns
+from ilmek.viz.room import HIGH, WIDE, draw_room
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ORDER = """
+customer = "N-204"
+start = 2026-12-01T07:00:00
+late = "10 EUR/d"
+[price]
+margin = "30%"
+tax = "19%"
+discount = { 2 = "3%", 9 = "8%" }
+[wage]
+amount = "3.2 EUR"
+colours = 3
+supplement = "2%"
+advance = "20%"
+rows = 15
+[[order]]
+name = "Medallion"
+picture = "medallion.png"
+size = "30x40cm"
+quality = "10x10/dm"
+yarns = "wool"
+colours = 4
+least_detail = "35%"
+due = 2026-12-31
+[[order.colourway]]
+name = "madder"
+[[order.colourway]]
+name = "indigo"
+quantity = 2
+map = { "indigo navy" = "light blue" }
+"""
+
+
+def run(*words: str | Path) -> Result:
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def written(folder: Path, text: str = ORDER) -> Path:
+    shutil.copy(EXAMPLES / "medallion.png", folder)
+    (folder / "order.toml").write_text(text, encoding="utf-8")
+    return folder / "order.toml"
+
+
+@pytest.fixture(scope="module")
+def worked(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
+    folder = tmp_path_factory.mktemp("order")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(folder / "state"))
+        words = ("--out", folder / "out", "--key", folder / "a.key", "--json", "-")
+        done = run("order", written(folder), *words)
+    assert done.exit_code == 0, done.output
+    return json.loads(done.stdout), folder / "out"
+
+
+def half_up(amount: float | Decimal) -> Decimal:
+    return Decimal(str(amount)).quantize(Decimal("0.01"), ROUND_HALF_UP)
+
+
+def text_of(path: Path) -> str:
+    return " ".join(" ".join(page.extract_text() for page in pypdf.PdfReader(path).pages).replace("\u202f", "").split())
+
+
+def test_prices_are_those_of_a_hand_calculation(worked: tuple[dict[str, Any], Path]) -> None:
+    found, _ = worked
+    nets = []
+    for one in found["carpets"]:
+        assert half_up(sum(Decimal(str(cost)) for cost in one["costs"].values())) == half_up(one["cost"])
+        wage = Decimal("3.2") * one["knots"] / 1000 * (1 + Decimal("0.02") * (len(one["yarns"]) - 3))
+        assert half_up(wage) == half_up(one["wage"]) == half_up(one["costs"]["wage"])
+        assert half_up(one["costs"]["finishing"]) == half_up(Decimal("0.12") * 12)
+        assert half_up(one["unit_price"]) == half_up(half_up(one["cost"]) * Decimal("1.3"))
+        nets.append(half_up(one["quantity"] * half_up(one["unit_price"]) * Decimal("0.97")))
+        assert half_up(one["net"]) == nets[-1]
+    assert half_up(found["net"]) == sum(nets)
+    assert half_up(found["total"]) == sum(nets) + sum(half_up(net * Decimal("0.19")) for net in nets)
+    assert [one["quantity"] for one in found["carpets"]] == [1, 2]
+
+
+def test_the_papers_say_what_the_json_says(worked: tuple[dict[str, Any], Path]) -> None:
+    found, folder = worked
+    quotation, approval = (text_of(folder / "offer" / name) for name in ("quotation.pdf", "approval.pdf"))
+    for text in ("N-204", "2026-12-01", "2026-12-31", f"{found['total']:.2f}", f"{found['net']:.2f}"):
+        assert text in quotation
+    for one in found["carpets"]:
+        costs = [f"{cost:.2f}" for cost in one["costs"].values()]
+        for text in (one["name"], f"{one['unit_price']:.2f}", f"{one['net']:.2f}", one["delivery"], *costs):
+            assert text in quotation
+        for text in (one["name"], *one["yarns"], f"{one['mass']:.2f} kg", f"{one['knots']}", "30 × 40 cm"):
+            assert text in approval
+
+
+def test_a_workshop_folder_is_enough_to_weave_from(worked: tuple[dict[str, Any], Path]) -> None:
+    found, folder = worked
+    one, own = found["carpets"][1], folder / "medallion-indigo"
+    names = {path.name for path in own.iterdir()}
+    papers = {"chart.pdf", "rows.pdf", "rows.txt", "yarn.csv", "mounting.pdf", "wages.pdf", "strike-off.pdf"}
+    assert papers | {"record-1.json", "record-2.json", "label-1.pdf", "label-2.pdf", "chart.png"} <= names
+    chart = read_chart(own / "chart.png")
+    assert (chart.rows, chart.columns) == (one["rows"], one["columns"]) == (40, 30)
+    mounting = text_of(own / "mounting.pdf")
+    assert f"{2 * 30 + 8}, of which 8 at the edges" in mounting
+    assert "between rows 20 and 21" in mounting
+    wages = text_of(own / "wages.pdf")
+    assert f"{one['wage']:.2f} EUR" in wages
+    assert "0 of 40 rows" in wages
+
+
+def test_the_code_of_a_label_is_in_its_text(worked: tuple[dict[str, Any], Path]) -> None:
+    found, folder = worked
+    for number, code in enumerate(found["carpets"][1]["labels"], 1):
+        assert code in text_of(folder / "medallion-indigo" / f"label-{number}.pdf").replace(" ", "")
+        done = run("verify", code, "--records", folder)
+        assert done.exit_code == 0, done.output
+        assert "Medallion, indigo" in done.output
+
+
+def test_a_record_is_signed_as_another_program_verifies_it(worked: tuple[dict[str, Any], Path]) -> None:
+    made = json.loads((worked[1] / "medallion-madder" / "record-1.json").read_text())
+    digests = json.dumps(made["digests"], ensure_ascii=False, sort_keys=True, separators=(",", ":"))
+    whole = hashlib.sha256(digests.encode()).digest()
+    public = Ed25519PublicKey.from_public_bytes(bytes.fromhex(made["signature"]["key"]))
+    public.verify(bytes.fromhex(made["signature"]["value"]), whole)
+    with pytest.raises(InvalidSignature):
+        public.verify(bytes.fromhex(made["signature"]["value"]), whole[::-1])
+    knots = hashlib.sha256(b'["/design/knots",1200]').hexdigest()[:16]
+    assert made["digests"]["/design/knots"] == knots
+    record = made["record"]
+    assert record["mass"] == pytest.approx(sum(part["mass"] for part in record["fibre"]))
+    gases = sum(part["mass"] for part in record["emissions"]["parts"])
+    assert record["emissions"]["mass"] == pytest.approx(gases)
+
+
+def test_every_changed_byte_of_a_record_is_found(worked: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
+    data = (worked[1] / "medallion-madder" / "record-1.json").read_bytes()
+    copy = tmp_path / "record.json"
+    for place in np.random.default_rng(38).choice(len(data), 60, replace=False):
+        copy.write_bytes(data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :])
+        assert run("verify", copy).exit_code in {2, 3}, place
+    copy.write_bytes(data)
+    assert run("verify", copy).exit_code == 0
+
+
+def test_what_was_changed_is_named(worked: tuple[dict[str, Any], Path]) -> None:
+    made, text = read_record(worked[1] / "medallion-madder" / "record-1.json")
+    assert record_faults(made, text) == []
+    changed = json.loads(text)
+    changed["record"]["yarn"][0]["lots"][0]["lot"] = 7
+    assert record_faults(changed, text)[0] == "/yarn/0/lots/0/lot was changed: it is now 7"
+    del changed["record"]["energy"]
+    assert "/energy was taken away" in record_faults(changed, text)
+    digest_too = json.loads(text)
+    digest_too["digests"]["/energy"] = "0" * 16
+    assert any("signature" in fault for fault in record_faults(digest_too, text))
+    assert "line 3 of the file is not as it was written" in record_faults(
+        made, text.replace('"identity":', '"identity" :')
+    )
+
+
+def test_a_record_keeps_the_days_of_its_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    order, out = written(tmp_path), tmp_path / "out"
+    assert run("order", order, "--out", out).exit_code == 0
+    chart = read_chart(out / "medallion-madder" / "chart.png")
+    for row in (17, 31):
+        write_state(state_file(chart), CallState(row, 0, "runs", "right"))
+        done = run("order", order, "--out", out, "--force", "--json", "-")
+        assert done.exit_code == 0, done.output
+    one = json.loads(done.stdout)["carpets"][0]
+    record = json.loads((out / "medallion-madder" / "record-1.json").read_text())["record"]
+    assert [entry["rows"] for entry in record["rows"]] == [16, 30]
+    assert one["rows_woven"] == 30
+    payments = WageRules(3.2, 1000, 3, 0.02, 0.2, 15).payments([30] * 40, 4)
+    assert half_up(one["wage_due"]) == payments[0].paid + payments[1].paid
+    assert "30 of 40 rows" in text_of(out / "medallion-madder" / "wages.pdf")
+
+
+def test_payments_are_the_wage() -> None:
+    rules = WageRules(9.0, 10_000, advance=0.25, rows=7)
+    payments = rules.payments([31] * 40, 5)
+    assert [one.row for one in payments] == [7, 14, 21, 28, 35, 40]
+    assert sum(one.knots for one in payments) == 1240
+    assert sum(one.earned for one in payments) == rules.wage(1240, 5) == Decimal("1.12")
+    assert sum(one.deducted for one in payments) == Decimal("0.28")
+
+
+def test_a_colourway_exchanges_yarns_all_at_once() -> None:
+    yarns = default_yarns()[:4]
+    chart = Chart(np.random.default_rng(1).integers(0, 4, (20, 30)), yarns, "30x20cm", "10x10/dm", "symmetric")
+    names = [yarn.name for yarn in yarns]
+    swapped = recoloured(
+        chart, Colourway("other", {names[0]: names[1], names[1]: names[0], names[2]: "grey"}), default_yarns()
+    )
+    shown = np.array([yarn.name for yarn in swapped.yarns])[swapped.knots]
+    other = {names[0]: names[1], names[1]: names[0], names[2]: "grey", names[3]: names[3]}
+    assert (shown == np.vectorize(other.get)(np.array(names)[chart.knots])).all()
+    one = recoloured(chart, Colourway("one", {names[0]: names[1]}), ())
+    assert one.colours == 3
+    near = recoloured(chart, Colourway("near", {names[0]: default_yarns()[8].hex}), default_yarns())
+    assert default_yarns()[8].name in {near.yarns[index].name for index in near.used}
+
+
+def test_a_colour_that_the_shelf_lacks_is_named_with_the_nearest() -> None:
+    chart = Chart([[0, 1], [1, 0]], default_yarns()[:2], "2x2cm", "10x10/dm", "symmetric")
+    with pytest.raises(CarpetError) as error:
+        recoloured(chart, Colourway("neon", {"madder red": "#00ff40"}), default_yarns())
+    assert re.fullmatch(r"colourway 'neon' lacks the colour '#00ff40' for 'madder red'", error.value.given)
+    assert re.fullmatch(r"take '[a-z ]+', the nearest: a colour difference of \d+\.\d", error.value.do)
+
+
+def test_a_strike_off_has_as_many_colours_as_any_window(worked: tuple[dict[str, Any], Path]) -> None:
+    chart = read_chart(worked[1] / "medallion-madder" / "chart.png")
+    window = strike_off_window(chart, 0.08)
+    sample = part_of(chart, window)
+    most = max(len(np.unique(chart.knots[top : top + 8, left : left + 8])) for top in range(33) for left in range(23))
+    assert len(np.unique(sample.knots)) == most
+    assert (sample.knots == chart.knots[window.top : window.top + 8, window.left : window.left + 8]).all()
+
+
+def test_a_carpet_lies_in_its_room_as_a_homography_maps_it() -> None:
+    marks = {
+        "red": (0.15, 0.1),
+        "lime": (0.85, 0.1),
+        "blue": (0.15, 0.9),
+        "yellow": (0.85, 0.9),
+        "magenta": (0.6, 0.35),
+    }
+    carpet = Image.new("RGB", (400, 600), (128, 128, 128))
+    for colour, (x, y) in marks.items():
+        carpet.paste(Image.new("RGB", (16, 16), colour), (round(400 * x) - 8, round(600 * y) - 8))
+    seen = np.asarray(draw_room(carpet, 2.0, 3.0).convert("HSV")).astype(int)
+    assert seen.shape == (HIGH, WIDE, 3)
+    hues = {"red": 0, "lime": 85, "blue": 170, "yellow": 42, "magenta": 212}
+    middles = {}
+    for colour, hue in hues.items():
+        near = np.abs((seen[..., 0] - hue + 128) % 256 - 128) < 6
+        rows, columns = np.nonzero(near & (seen[..., 1] > 225))
+        middles[colour] = columns.mean(), rows.mean()
+    equations, right = [], []
+    for colour in ("red", "lime", "blue", "yellow"):
+        (x, y), (u, v) = marks[colour], middles[colour]
+        equations += [[x, y, 1, 0, 0, 0, -u * x, -u * y], [0, 0, 0, x, y, 1, -v * x, -v * y]]
+        right += [u, v]
+    h = np.append(np.linalg.solve(np.array(equations), np.array(right)), 1.0).reshape(3, 3)
+    point = h @ (*marks["magenta"], 1.0)
+    assert point[:2] / point[2] == pytest.approx(middles["magenta"], abs=1.5)
+
+
+BAD = {
+    "colourway": (('"indigo navy" = "light', '"indigo nayv" = "light'), "the design has no yarn 'indigo nayv'"),
+    "discount": (('2 = "3%"', 'two = "3%"'), "'two' is no number of carpets"),
+    "margin": (('margin = "30%"', "margin = 30"), "has no unit"),
+    "wage": (('amount = "3.2 EUR"', 'amount = "3.2 USD"'), "another currency"),
+    "sizes": (('size = "30x40cm"', 'sizes = "30x40cm"'), "are no sizes"),
+    "language": (('customer = "N-204"', 'workshop_language = "xx"'), "'xx' is no language"),
+    "twice": (('name = "indigo"', 'name = "madder"'), "two orders are named 'Medallion, madder'"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_orders_are_one_clear_error(case: str, tmp_path: Path) -> None:
+    (old, new), expected = BAD[case]
+    assert old in ORDER
+    done = run("order", written(tmp_path, ORDER.replace(old, new, 1)), "--out", tmp_path / "out")
+    assert done.exit_code == 2
+    assert expected in done.output
+    assert "order.toml, line" in done.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_impossible_date_is_named_with_what_would_save_it(tmp_path: Path) -> None:
+    late = written(tmp_path, ORDER.replace("due = 2026-12-31", "due = 2026-12-03"))
+    done = run("order", late, "--out", tmp_path / "out", "--json", "-")
+    assert done.exit_code == 3
+    found = json.loads(done.stdout)
+    assert any(not check["ok"] and "delay" in check["name"] for check in found["checks"])
+    assert any(check["cure"] for check in found["checks"] if not check["ok"])
+    assert (tmp_path / "out" / "offer" / "quotation.pdf").exists()
+
+
+@pytest.mark.parametrize("words", [("verify", "no.json"), ("verify", "ilmek:2:a:b:c"), ("verify", "ilmek:1:aa:bb:-")])
+def test_what_is_no_record_is_one_clear_error(words: tuple[str, ...], tmp_path: Path) -> None:
+    done = run(*words, "--records", tmp_path)
+    assert done.exit_code == 2
+    assert done.output.count("\n") == 1
+
+
+def test_a_key_is_for_its_owner_alone(worked: tuple[dict[str, Any], Path]) -> None:
+    assert (worked[1].parent / "a.key").stat().st_mode & 0o077 == 0
+    assert replace(WageRules(1.0), knots=10).rate(3) == pytest.approx(0.1)
