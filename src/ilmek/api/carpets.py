@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from ilmek.arguments import Arguments, Quantity
 from ilmek.arrays import Rgb
-from ilmek.carpet import chart as charting
+from ilmek.carpet import chart_making as charting
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.sizes import AUTO, CarpetSize

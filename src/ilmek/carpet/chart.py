@@ -16,6 +16,7 @@ from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, ti
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
+from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_list
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError
