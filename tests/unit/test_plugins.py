@@ -1,11 +1,12 @@
 """Machines, motion laws, chart formats and controllers of another package, installed as pip installs one."""
 
 import os
-import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+from processes import ended, python
 
 ENTRY_POINTS = """
 [ilmek.machines]
@@ -58,7 +59,8 @@ from ilmek.io.plc.targets import TARGETS
 chart = ilmek.Chart.of([[0, 1], [1, 1]], ilmek.read_yarns()[:2], "4x4cm", "5x5/dm")
 ilmek.write_chart("chart.rle", chart)
 print(open("chart.rle").read())
-print([check.name for check in ilmek.design("lamp", width="4m").failed], ilmek.list_machines()["lamp"], ilmek.design("beat-up").machine)
+lamp = ilmek.design("lamp", width="4m")
+print([check.name for check in lamp.failed], ilmek.list_machines()["lamp"], ilmek.design("beat-up").machine)
 print(float(ilmek.motion_law("smoothstep").s(0.5)), TARGETS["soft"].title, list(TARGETS)[-1])
 print([entry.name for entry in ilmek.parameters("lamp")])
 """
@@ -76,19 +78,17 @@ except ilmek.IlmekError as error:
 
 @pytest.fixture
 def installed(tmp_path: Path) -> dict[str, str]:
-    """An environment in which the package is installed."""
+    """Changes of the environment with which the package is installed."""
     (tmp_path / "carpet_lamp.py").write_text(PACKAGE, encoding="utf-8")
     facts = tmp_path / "carpet_lamp-1.0.dist-info"
     facts.mkdir()
     (facts / "METADATA").write_text("Metadata-Version: 2.1\nName: carpet-lamp\nVersion: 1.0\n", encoding="utf-8")
     (facts / "entry_points.txt").write_text(ENTRY_POINTS, encoding="utf-8")
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
+    return {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
 
 
-def ran(installed: dict[str, str], folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, *command], cwd=folder, env=installed, capture_output=True, text=True, check=False
-    )
+def ran(installed: dict[str, str], folder: Path, *command: str) -> Any:
+    return ended(python(*command), cwd=folder, changes=installed)
 
 
 def test_entries_of_another_package_join(installed: dict[str, str], tmp_path: Path) -> None:
