@@ -124,7 +124,7 @@ def welded_together(one: Part, other: Part) -> bool:
     if _is_joined(one, other) or _is_joined(other, one):
         return True
     processes = {one.process, other.process}
-    return WELDED in processes and processes <= _WITH
+    return WELDED in processes and processes <= _WITH and not (one.fixing or other.fixing)
 
 
 def _is_joined(part: Part, other: Part) -> bool:
@@ -145,6 +145,17 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     return {name: tuple(own.values()) for name, own in welds.items()}
 
 
+def arc_partners(tree: Tree) -> Mapping[str, frozenset[str]]:
+    """The ids of the parts to which an arc welds each part of a tree: what it distorts is machined after."""
+    partners: dict[str, set[str]] = defaultdict(set)
+    for name, own in welds_of(tree).items():
+        for weld in own:
+            if weld.other and not weld.brazed:
+                partners[name].add(weld.other)
+                partners[weld.other].add(name)
+    return {name: frozenset(others) for name, others in partners.items()}
+
+
 def welded_pairs(tree: Tree) -> frozenset[frozenset[str]]:
     """Ids of the parts that welds join, by two: where they touch there is an edge for a seam."""
     return frozenset(frozenset(pair) for pair, welded in _joints(tree) if welded)
@@ -159,7 +170,7 @@ def _joints(tree: Tree) -> tuple[tuple[tuple[str, str], tuple[tuple[str, Weld], 
     stock = frozenset(name for name, part in parts.items() if part.process == WELDED) | tubes
     screws = frozenset(name for name, part in parts.items() if part.process == "fastener")
     screwed = [frozenset(pair) for pair in joined_by(tree, screws).values()] if screws else []
-    plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
+    plates = frozenset(name for name, part in parts.items() if part.process in _WITH and not part.fixing)
     stated = {frozenset((name, other)) for name, part in parts.items() if part.material for other in part.joins}
     named = frozenset(name for ids in stated for name in ids)
     joints = list[tuple[tuple[str, str], tuple[tuple[str, Weld], ...]]]()

@@ -1,8 +1,9 @@
 """Worm reducers: housing with covers, hollow shaft across the worm, torque arm.
 
-Axes: z along the worm, from the motor's flange at z = 0; the hollow shaft along x, its middle below the worm, at -y. The
-torque arm lies on the cover at +x, along -y; a shaft comes in from -x. The reducer hangs on this shaft, and its arm keeps
-it from turning: a screw in its eye, so that the shaft's run-out forces nothing.
+Axes: z along the worm, from the motor's flange at z = 0; the hollow shaft along x, its middle below the worm, at -y.
+The torque arm lies on the cover at +x, along -y; a shaft comes in from -x. The reducer hangs on this shaft, and its arm
+keeps it from turning: a screw in its eye, so that the shaft's run-out forces nothing. Of two worms the first is at the
+end of the second, its own across: the motor is then along the hollow shaft, at +x.
 """
 
 import math
@@ -56,10 +57,13 @@ def journal(row: WormSize) -> float:
 def worm_reducer(  # noqa: PLR0917
     name: str, title: str, by: Reducer, row: WormSize, motor: Motor | None, end: KeyedEnd
 ) -> Part:
-    """A worm reducer of a size behind a motor, priced by its power; end  of the shaft in it: the room of both is open."""
+    """A worm reducer of a size, priced by its motor; end  of the shaft in it: the room of both is open."""
     corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
-    bore, about = circle(0j, abs(corner) + catalogue.HOLLOW), row.circle / 2 + _EDGE * SOCKET_SCREWS[row.thread].diameter
-    face, flange = motor.face if motor else catalogue.SPECIAL_FACE, row.to_motor(by.ratio)
+    bore, about = (
+        circle(0j, abs(corner) + catalogue.HOLLOW),
+        row.circle / 2 + _EDGE * SOCKET_SCREWS[row.thread].diameter,
+    )
+    face, first, flange = _face(motor), row.first(by.ratio), inlet(row, by.ratio, motor)
     inside, across = row.cover - _COVER, placement(0.0, -row.centre, flange, about=(0.0, 1.0, 0.0), angle=turn / 4)
 
     def beside(x: float, profile: Profile, length: float, y: float = 0.0) -> Placed:
@@ -75,7 +79,7 @@ def worm_reducer(  # noqa: PLR0917
             beside(-inside, Profile(polygon(corners), (bore,)), 2 * inside),
             *(beside(x, disc(about, bore), _COVER) for x in (-row.cover, inside)),
             *(beside(x, pilots, row.length / 2 - row.cover) for x in (-row.length / 2, row.cover)),
-            Placed(box(face, face, flange - row.half)),
+            *(_first_stage(first, face, flange - row.half) if first else (Placed(box(face, face, flange - row.half)),)),
             beside(row.cover, Profile(_arm(row, about), (circle(0j, row.pilot / 2), eye)), ARM),
             beside(eye_face(row), disc(eye_radius(row)), long, -row.arm),
         )
@@ -83,17 +87,50 @@ def worm_reducer(  # noqa: PLR0917
     given = max(by.output_torque(motor.torque) if motor else 0.0, end.torque)
     request = "" if math.isclose(end.diameter, row.bore) else f", on request, not {in_mm(row.bore)}"
     data = (
-        f"{row.name}, hollow shaft {in_mm(end.diameter)} H7{request}, keyway DIN 6885-1, with disc and screw for its end",
+        f"{row.name}, hollow shaft {in_mm(end.diameter)} H7{request}, keyway DIN 6885-1",
+        "disc and screw for the end of the shaft",
         f"torque arm {in_mm(row.arm)} on a cover, its eye for {row.screw}",
         f"output {format_quantity(given, 'Nm', 3)}",
         *((f"for a motor with {catalogue.flange_text(motor)}",) if motor else ()),
     )
     holes = (
         HolePattern(0.0, 0.0, row.screw, faces=(0,)),
-        replace(*catalogue.flange_holes(motor), tapped=True, faces=(-1,)),
+        replace(*catalogue.flange_holes(motor), tapped=True, faces=(0,) if first else (-1,)),
     )
-    bought = Bought(f"worm reducer {by.ratio:g}:1", row.mass, power=motor.power if motor else 0.0, data=", ".join(data), holes=holes)
+    power, kind = motor.power if motor else 0.0, f"worm reducer {by.ratio:g}:1"
+    bought = Bought(kind, row.mass, power=power, data=", ".join(data), holes=holes)
     return bought_part(name, title, "reducer", room, bought)
+
+
+def _first_stage(first: WormSize, face: float, end: float) -> tuple[Placed, ...]:
+    """Housing of a first worm, about z from z = 0, what joins it to the second, which begins at `end`, its neck."""
+    long, across = max(first.length, face), first.half + first.top
+    middle = placement(0.0, (first.half - first.top) / 2)
+    neck = placement(first.half, -first.centre, long / 2, about=(0.0, 1.0, 0.0), angle=turn / 4)
+    return (
+        Placed(box(2 * first.half, across, long), (middle,)),
+        Placed(box(first.half, first.half, end - long), (placement(z=long),)),
+        Placed(box(face, face, first.motor - first.half), (neck,)),
+    )
+
+
+def _face(motor: Motor | None) -> float:
+    return motor.face if motor else catalogue.SPECIAL_FACE
+
+
+def inlet(row: WormSize, ratio: float, motor: Motor | None) -> float:
+    """From the axis of the hollow shaft to the end of the housing along the worm [m]: to the motor's flange of one."""
+    first = row.first(ratio)
+    return row.motor + (max(first.length, _face(motor)) if first else 0.0)
+
+
+def motor_in(row: WormSize, ratio: float, motor: Motor | None) -> Placement:
+    """Position of the motor in the reducer's axes."""
+    first = row.first(ratio)
+    if first is None:
+        return placement()
+    middle = max(first.length, _face(motor)) / 2
+    return placement(first.motor, -first.centre, middle, about=(0.0, 1.0, 0.0), angle=-turn / 4)
 
 
 def _arm(row: WormSize, about: float) -> Contour:
@@ -102,12 +139,13 @@ def _arm(row: WormSize, about: float) -> Contour:
     return polygon(hull(np.concatenate([about * ring, -1j * row.arm + edge * ring])))
 
 
-def hung(row: WormSize, ratio: float, middle: float, arm: complex) -> Placement:
-    """Position of a worm reducer and of its motor on a shaft along z.
+def hung(row: WormSize, long: float, middle: float, arm: complex) -> Placement:
+    """Position of a worm reducer on a shaft along z.
 
-    middle  of the hollow shaft on it [m]      arm  direction of the torque arm across the shaft, x + i y
+    long  to its end along the worm, `inlet`      middle  of the hollow shaft on it [m]
+    arm   direction of the torque arm across the shaft, x + i y
     """
-    along, motor = -1j * arm, (1j * row.to_motor(ratio) - row.centre) * arm
+    along, motor = -1j * arm, (1j * long - row.centre) * arm
     axes = np.array([[0.0, -arm.real, along.real], [0.0, -arm.imag, along.imag], [1.0, 0.0, 0.0]])
     return Placement(np.array([motor.real, motor.imag, middle]), axes)
 
