@@ -16,7 +16,7 @@ from ilmek.part.catalogue import motor
 from ilmek.part.placement import placement
 from ilmek.part.shapes import shape_box
 from ilmek.part.tree import Tree
-from ilmek.part.worm_reducer import eye, eye_face, eye_radius, hung, inlet, journal, motor_in, worm_reducer
+from ilmek.part.worm_reducer import eye, eye_face, eye_radius, inlet, journal, motor_in, reducer_position, worm_reducer
 
 
 def test_sizes_grow_together() -> None:
@@ -46,7 +46,7 @@ def test_the_hollow_shaft_is_on_the_shaft_and_the_motor_across(ratio: float, arm
     """By points of the part's own axes, carried by its position."""
     row = WORM_SIZES[4]
     long = inlet(row, ratio, None)
-    lies = hung(row, long, 0.7, complex(arm))
+    lies = reducer_position(row, long, 0.7, complex(arm))
     axis = lies.points(np.array([[-0.1, -row.centre, long], [0.1, -row.centre, long]]))
     assert axis == pytest.approx(np.array([[0, 0, 0.6], [0, 0, 0.8]]), abs=1e-12)
     worm = lies.rotation[:, 2]

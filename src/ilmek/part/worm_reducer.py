@@ -139,7 +139,7 @@ def _arm(row: WormSize, about: float) -> Contour:
     return polygon(hull(np.concatenate([about * ring, -1j * row.arm + edge * ring])))
 
 
-def hung(row: WormSize, long: float, middle: float, arm: complex) -> Placement:
+def reducer_position(row: WormSize, long: float, middle: float, arm: complex) -> Placement:
     """Position of a worm reducer on a shaft along z.
 
     long  to its end along the worm, `inlet`      middle  of the hollow shaft on it [m]
