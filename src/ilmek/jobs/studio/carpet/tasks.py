@@ -12,7 +12,8 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.calling import count_text, row_steps
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
