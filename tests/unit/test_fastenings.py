@@ -158,8 +158,11 @@ CHOICES: dict[str, dict[str, str]] = {
 ALONE = [(name, {}) for name, machine in MACHINES.items() if machine.tree and name != "automated-loom"]
 
 
+DIRECT = "knotting-dyad", {"elbow_drive": "direct"}
+
+
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize(("name", "settings"), [*ALONE, *CHOICES.items()])
+@pytest.mark.parametrize(("name", "settings"), [*ALONE, *CHOICES.items(), DIRECT])
 def test_a_machine_alone_has_a_fastening_and_a_way_in_for_each_part(name: str, settings: dict[str, str]) -> None:
     machine = MACHINES[name]
     assert machine.tree is not None
