@@ -69,8 +69,9 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "The whole carpet",
     "chart.facts": "{size} (width × length), {across} × {along} knots per dm, {knot} knots",
-    "chart.one-sheet": "{columns} knots × {rows} rows: {knots} knots in {colours} on one sheet",
-    "chart.sheets": "{columns} knots × {rows} rows: {knots} knots in {colours} on {sheets} sheets of {across} knots × "
+    "chart.bare": "{bare} of these cells have no knot (·): {knots} knots are tied.",
+    "chart.one-sheet": "{columns} knots × {rows} rows = {knots} knots in {colours} on one sheet",
+    "chart.sheets": "{columns} knots × {rows} rows = {knots} knots in {colours} on {sheets} sheets of {across} knots × "
     "{up} rows",
     "chart.order": "Rows are counted from the bottom, knots from the left.",
     "chart.shaded": "Shaded knots belong to the next sheet.",
@@ -138,7 +139,6 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: half knots on left, right warps",
     "rows.jufti-cells": "; j: jufti knots",
-    "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",
     "rows.text": "{size}, {quality}, {knot} knot; row 1 is the first that is woven, at the lower edge.",
     "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank continues "
     "the one above.",
@@ -146,6 +146,7 @@ WEAVER = {
     "first, C on the",
     "rows.text-more-runs": "other. 1jB: 1 jufti knot of B, on four warps, in two cells. A colon: before a symbol that "
     "is a digit.",
+    "rows.text-bare": "12·: 12 cells without a knot, flat weave.",
     "rows.text-colours": "A 54: the 54 knots of yarn A of the row, by the numbers of their cells from the edge where "
     "the row begins.",
     "rows.text-more-colours": "16-17L: half knots on the left warps of cells 16 and 17; R: on the right ones. 18-19j: "
