@@ -2,12 +2,11 @@
 
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from processes import ilmek, printed
 
 from ilmek.api.tools import TOOLS, call_tool
 from ilmek.errors import IlmekError
@@ -34,21 +33,22 @@ CALLS: dict[str, dict[str, Any]] = {
 """A call of each tool that needs no programme."""
 
 
-def exchanged(*messages: object, folder: Path = EXAMPLES) -> list[dict[str, Any]]:
-    """The replies of a server to messages."""
-    lines = "".join(f"{message if isinstance(message, str) else json.dumps(message)}\n" for message in messages)
-    server = [sys.executable, "-m", "ilmek", "mcp", "--folder", str(folder)]
-    done = subprocess.run(server, input=lines, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    return [json.loads(line) for line in done.stdout.splitlines()]
+def exchanged(folder: Path, *messages: object) -> list[dict[str, Any]]:
+    """The replies of a server to messages; folder: of the file of the messages."""
+    lines = folder / "messages.jsonl"
+    texts = (message if isinstance(message, str) else json.dumps(message) for message in messages)
+    lines.write_text("".join(f"{text}\n" for text in texts), encoding="utf-8")
+    with lines.open(encoding="utf-8") as stream:
+        return [json.loads(line) for line in printed(ilmek("mcp", "--folder", EXAMPLES), stdin=stream).splitlines()]
 
 
 def request(number: int, method: str, **given: object) -> dict[str, object]:
     return {"jsonrpc": "2.0", "id": number, "method": method, "params": given}
 
 
-def test_a_session() -> None:
+def test_a_session(tmp_path: Path) -> None:
     replies = exchanged(
+        tmp_path,
         request(1, "initialize", **OPENING),
         {"jsonrpc": "2.0", "method": "notifications/initialized"},
         request(2, "tools/list"),

@@ -1,11 +1,11 @@
 """Machines, motion laws, chart formats and controllers of another package, installed as pip installs one."""
 
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes import ended, ilmek, python
 
 ENTRY_POINTS = """
 [ilmek.machines]
@@ -76,24 +76,18 @@ except ilmek.IlmekError as error:
 
 
 @pytest.fixture
-def installed(tmp_path: Path) -> dict[str, str]:
+def installed(tmp_path: Path) -> dict[str, str | None]:
     """An environment in which the package is installed."""
     (tmp_path / "carpet_lamp.py").write_text(PACKAGE, encoding="utf-8")
     facts = tmp_path / "carpet_lamp-1.0.dist-info"
     facts.mkdir()
     (facts / "METADATA").write_text("Metadata-Version: 2.1\nName: carpet-lamp\nVersion: 1.0\n", encoding="utf-8")
     (facts / "entry_points.txt").write_text(ENTRY_POINTS, encoding="utf-8")
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
+    return {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
 
 
-def ran(installed: dict[str, str], folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, *command], cwd=folder, env=installed, capture_output=True, text=True, check=False
-    )
-
-
-def test_entries_of_another_package_join(installed: dict[str, str], tmp_path: Path) -> None:
-    answer = ran(installed, tmp_path, "-c", USE)
+def test_entries_of_another_package_join(installed: dict[str, str | None], tmp_path: Path) -> None:
+    answer = ended(python("-c", USE), changes=installed, cwd=tmp_path)
     assert answer.stderr == ""
     assert answer.stdout.splitlines() == [
         "0 1 1 1",
@@ -103,17 +97,19 @@ def test_entries_of_another_package_join(installed: dict[str, str], tmp_path: Pa
     ]
 
 
-def test_the_command_line_has_them_too(installed: dict[str, str], tmp_path: Path) -> None:
-    assert "lamp" in ran(installed, tmp_path, "-m", "ilmek", "machines").stdout
-    design = ran(installed, tmp_path, "-m", "ilmek", "design", "lamp", "--set", "width=2m")
+def test_the_command_line_has_them_too(installed: dict[str, str | None], tmp_path: Path) -> None:
+    assert "lamp" in ended(ilmek("machines"), changes=installed, cwd=tmp_path).stdout
+    design = ended(ilmek("design", "lamp", "--set", "width=2m"), changes=installed, cwd=tmp_path)
     assert (design.returncode, design.stderr) == (0, "")
-    assert "soft" in ran(installed, tmp_path, "-m", "ilmek", "plc", "--help").stdout
+    assert "soft" in ended(ilmek("plc", "--help"), changes=installed, cwd=tmp_path).stdout
 
 
 @pytest.mark.parametrize(("line", "words"), [("x = nowhere:LAW", "fails"), ("x = carpet_lamp:ENTRY", "is a Entry")])
-def test_a_broken_entry_is_one_clear_error(installed: dict[str, str], tmp_path: Path, line: str, words: str) -> None:
+def test_a_broken_entry_is_one_clear_error(
+    installed: dict[str, str | None], tmp_path: Path, line: str, words: str
+) -> None:
     facts = tmp_path / "carpet_lamp-1.0.dist-info" / "entry_points.txt"
     facts.write_text(f"[ilmek.motion_laws]\n{line}\n", encoding="utf-8")
-    answer = ran(installed, tmp_path, "-c", BROKEN)
+    answer = ended(python("-c", BROKEN), changes=installed, cwd=tmp_path)
     assert words in answer.stdout
     assert answer.stderr == ""
