@@ -90,7 +90,9 @@ layers: venv
 	$(BIN)/lint-imports
 
 types: venv
+	$(BIN)/python tests/support/course_code.py build/course
 	$(BIN)/mypy
+	$(BIN)/mypy build/course
 
 unit: venv
 	$(BIN)/pytest -n 2 --dist worksteal --ignore tests/browser

@@ -1,5 +1,9 @@
 """Reports that many tests read, made once in a process: of the machines at their defaults, and of looms."""
 
+import base64
+import gzip
+import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache, lru_cache
@@ -45,3 +49,9 @@ def default_page(machine: str) -> tuple[str, tuple[str, ...]]:
     """The page of a machine, and what is left out of it."""
     left_out: list[str] = []
     return machine_page(default_report(machine), left_out), tuple(left_out)
+
+
+def page_data(page: str) -> list[dict[str, Any]]:
+    """The data of the figures that a page holds for the client, in their order."""
+    held = re.findall(r'<script type="text/plain">(.*?)</script>', page, flags=re.DOTALL)
+    return [json.loads(gzip.decompress(base64.b64decode(one))) for one in held]

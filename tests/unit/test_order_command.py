@@ -1,7 +1,8 @@
-"""`ilmek order` and `ilmek verify`: prices by hand, papers read back, labels, records with a changed byte, bad input."""
+"""`ilmek order`, `ilmek verify`: prices by hand, papers read back, labels, records with a changed byte, bad input."""
 
 import hashlib
 import json
+import math
 import re
 import shutil
 from dataclasses import replace
@@ -17,6 +18,7 @@ from cryptography.exceptions import InvalidSignature
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 from PIL import Image
 
+import ilmek
 from ilmek.api.carpets import read_chart
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
@@ -240,7 +242,7 @@ def test_a_colour_that_the_shelf_lacks_is_named_with_the_nearest() -> None:
 
 def test_a_strike_off_has_as_many_colours_as_any_window(worked: tuple[dict[str, Any], Path]) -> None:
     chart = read_chart(worked[1] / "medallion-madder" / "chart.png")
-    window = strike_off_window(chart, 0.08)
+    window = strike_off_window(chart, 0.08, 0.08)
     sample = part_of(chart, window)
     most = max(len(np.unique(chart.knots[top : top + 8, left : left + 8])) for top in range(33) for left in range(23))
     assert len(np.unique(sample.knots)) == most
@@ -285,6 +287,37 @@ BAD = {
     "language": (('customer = "N-204"', 'workshop_language = "xx"'), "'xx' is no language"),
     "twice": (('name = "indigo"', 'name = "madder"'), "two orders are named 'Medallion, madder'"),
 }
+
+
+def test_the_shelf_of_natural_dyes_has_its_card_and_the_lots_in_stock(tmp_path: Path) -> None:
+    text = ORDER.replace('yarns = "wool"', 'yarns = "natural"').replace("indigo navy", "woad dark blue")
+    order = written(tmp_path, text.replace('"light blue"', '"woad light blue"'))
+    shelf = default_yarns("natural")
+    stock = '\n[[yarn]]\nname = "madder red"\nstock = "1kg"\nlot = "K-114"\n'
+    frames = (Path(ilmek.__file__).parent / "data" / "looms.toml").read_text()
+    (tmp_path / "looms.toml").write_text(frames.replace("weavers = 3", "weavers = 4\nknots_a_day = 4000") + stock)
+    done = run("order", order, "--looms", tmp_path / "looms.toml", "--out", tmp_path / "out", "--json", "-")
+    assert done.exit_code == 0, done.output
+    card = text_of(tmp_path / "out" / "offer" / "colour-card.pdf")
+    for number, yarn in enumerate(shelf, 1):
+        assert re.search(rf"\b{number} {yarn.name} {yarn.hex}", card), yarn.name
+    assert "K-114" in card
+    record = json.loads((tmp_path / "out" / "medallion-madder" / "record-1.json").read_text())["record"]
+    lots = {yarn["name"]: yarn["lots"][0]["lot"] for yarn in record["yarn"]}
+    assert lots["madder red"] == "K-114"
+    assert {lot for name, lot in lots.items() if name != "madder red"} == {1}
+
+
+def test_weavers_at_a_frame_tie_together(tmp_path: Path) -> None:
+    order = written(tmp_path)
+    frame = "weavers = 4\nknots_a_day = 4000\nwidth = '25cm'"
+    frames = (Path(ilmek.__file__).parent / "data" / "looms.toml").read_text()
+    (tmp_path / "looms.toml").write_text(frames.replace('weavers = 3\nwidth = "3.2m"', frame))
+    done = run("plan", order, "--looms", tmp_path / "looms.toml", "--time-limit", "1s", "--json", "-")
+    carpets = [carpet for entry in json.loads(done.stdout)["orders"] for carpet in entry["carpets"]]
+    assert {carpet["loom"] for carpet in carpets} == {"2"}  # the other one is too narrow
+    hours = 30 * 40 / (2 * 8000 / 8) / (1 - 0.03)
+    assert all(carpet["weaving_time"] == math.ceil(60 * hours) * 60 for carpet in carpets)
 
 
 @pytest.mark.parametrize("case", BAD)

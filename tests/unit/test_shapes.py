@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from ilmek.carpet.bill import pile_length, yarn_bill
-from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN, CellKind, Cells, all_knots
+from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN, CellKind, CellMap, all_knots
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.cut_edge import edge_length, finished_area
@@ -119,7 +119,7 @@ def test_yarn_of_two_heights_and_loops_by_hand() -> None:
 def test_half_knots_have_the_pile_of_their_cell() -> None:
     index = np.zeros((4, 4), np.uint8)
     index[0] = 1
-    cells = Cells(index, (PILE, CellKind("low", height=5e-3)))
+    cells = CellMap(index, (PILE, CellKind("low", height=5e-3)))
     overlay = overlay_of([KnotMark(0, 0, HALF, 1), KnotMark(3, 3, HALF, 1)])
     chart = Chart(np.zeros((4, 4), int), default_yarns()[:2], "4x4cm", "10x10/dm", "symmetric", overlay=overlay)
     made = Chart(chart.knots, chart.yarns, chart.size, chart.quality, chart.knot, overlay=overlay, cells=cells)

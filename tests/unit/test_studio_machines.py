@@ -22,7 +22,7 @@ from ilmek.jobs.studio.machine.tasks import (
     reading,
 )
 from ilmek.jobs.studio.machine.view import in_space, view
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import reachable
 
@@ -30,10 +30,11 @@ HERE = Context()
 
 
 def test_catalogue_lists_every_machine_with_its_summary() -> None:
-    assert {one.name: one.summary for one in list_of_machines(Nothing(), HERE).machines} == SUMMARIES
+    summaries = {name: entry.summary for name, entry in ENTRIES.items()}
+    assert {one.name: one.summary for one in list_of_machines(Nothing(), HERE).machines} == summaries
 
 
-@pytest.mark.parametrize("name", SUMMARIES)
+@pytest.mark.parametrize("name", ENTRIES)
 def test_form_has_every_declared_parameter_and_each_default_reads_as_itself(name: str) -> None:
     fields = form(MachineName(name), HERE).fields
     assert [one.name for one in fields] == list(reachable(MACHINES[name].params))

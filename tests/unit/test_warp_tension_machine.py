@@ -123,9 +123,7 @@ def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
     assert wide.motor is not None
     report = answer(**WIDE, ratio="10", tension_shed="30N")  # 18 kN m: more than two keys bear
     keys = [f"key of the {name} cylinder" for name in ("upper", "lower")]
-    assert sorted(check.name for check in report.failed) == sorted(
-        ["motor torque", *keys]
-    )
+    assert sorted(check.name for check in report.failed) == sorted(["motor torque", *keys])
     assert any("set another ratio" in warning for warning in report.warnings)
 
 

@@ -40,19 +40,19 @@ Inside = Callable[[FloatArray, FloatArray, float, float], BoolArray]
 
 
 def _octagon(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
-    return abs(x) + abs(y) <= (width + length) / 2 - min(width, length) / (2 + math.sqrt(2))
+    return np.asarray(abs(x) + abs(y) <= (width + length) / 2 - min(width, length) / (2 + math.sqrt(2)))
 
 
 def _stair(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
     radius = min(width, length) / 2
     aside, below = abs(x) - (width / 2 - radius), -y - (length / 2 - radius)
-    return np.hypot(np.maximum(aside, 0.0), np.maximum(below, 0.0)) <= radius
+    return np.asarray(np.hypot(np.maximum(aside, 0.0), np.maximum(below, 0.0)) <= radius)
 
 
 def _runner(x: FloatArray, y: FloatArray, width: float, length: float) -> BoolArray:
     radius = min(width, length) / 2
     beyond = np.hypot(np.maximum(abs(x) - (width / 2 - radius), 0.0), np.maximum(abs(y) - (length / 2 - radius), 0.0))
-    return beyond <= radius
+    return np.asarray(beyond <= radius)
 
 
 SHAPES: Mapping[str, Inside] = MappingProxyType(

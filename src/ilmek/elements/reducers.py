@@ -127,10 +127,9 @@ def reducer_check(title: str, by: Reducer, motor_torque: float, load: float, par
 
 @dataclass(frozen=True, slots=True)
 class WormSize:
-    """A size of worm reducers: its hollow shaft lies across the motor's, apart by the centre distance. All but torques in
-    m and kg.
+    """A size of worm reducers: its hollow shaft lies across the motor's, apart by the centre distance; in m and kg.
 
-    centre  distance of both axes             torque, single  at the output, slow: of a last stage of 50:1, of 100:1 [N m]
+    centre  distance of both axes             torque, single  slow, of a last stage of 50:1, of 100:1 [N m]
     bore    largest of its hollow shaft       length   of that, beyond both covers
     motor   from its axis to the motor's      half     from its axis to the housing's sides along the worm and away
     top     beyond the worm                   cover    from the middle of its length to a cover
@@ -169,13 +168,25 @@ class WormSize:
 
 
 SINGLE, _LAST, _STAGE = 100.0, 50.0, 2.2
-"""Largest ratio of a worm, ratio of the last of two stages, and how much farther the motor is with two: makers' tables."""
+"""Largest ratio of a worm, ratio of the last of two stages, and how much farther the motor is with two: by makers."""
 
 WORM_SIZES = tuple(
     WormSize(
-        *(centre * mm, torque, single, bore * mm),
-        *(size * mm for size in (length, motor, half, top, cover, pilot, circle)),
-        *(thread, arm * mm, screw, mass),
+        centre=centre * mm,
+        torque=torque,
+        single=single,
+        bore=bore * mm,
+        length=length * mm,
+        motor=motor * mm,
+        half=half * mm,
+        top=top * mm,
+        cover=cover * mm,
+        pilot=pilot * mm,
+        circle=circle * mm,
+        thread=thread,
+        arm=arm * mm,
+        screw=screw,
+        mass=mass,
     )
     for centre, torque, single, bore, length, motor, half, top, cover, pilot, circle, thread, arm, screw, mass in (
         (63, 145, 100, 28, 112, 95, 72, 102, 53, 80, 95, "M8", 150, "M8", 6.2),
@@ -186,7 +197,7 @@ WORM_SIZES = tuple(
         (150, 2330, 1650, 50, 200, 210, 170, 230, 96, 180, 215, "M12", 250, "M16", 84.0),
         (185, 4400, 3100, 60, 247, 260, 210, 284, 118, 222, 265, "M16", 310, "M16", 158.0),
         (250, 10800, 7600, 110, 334, 350, 283, 384, 160, 300, 358, "M16", 400, "M16", 390.0),
-        (315, 21000, 15000, 140, 420, 441, 357, 483, 202, 378, 450, "M16", 500, "M16", 780.0),
+        (315, 21000, 15000, 130, 420, 441, 357, 483, 202, 378, 450, "M16", 500, "M16", 780.0),
     )
 )
 """Motovario's SW, sizes and masses by its catalogue; torques of its two-stage units at less than 1 rpm. Those above 150

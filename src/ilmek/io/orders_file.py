@@ -36,7 +36,7 @@ from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, read_wage
 from ilmek.io.schema import SourceText, shown
-from ilmek.io.yarn_file import WOOL
+from ilmek.io.yarn_file import SHIPPED
 from ilmek.params import Parameter, Setting
 from ilmek.sentences import DEFAULT, WEAVERS
 
@@ -189,7 +189,7 @@ class _OrderReader:
         return tuple(sizes)
 
     def _yarns(self, row: FactoryEntry) -> Path | None:
-        return Path(WOOL) if row.data.get("yarns") == WOOL else self.file(row, "yarns")
+        return Path(row.text("yarns")) if row.data.get("yarns") in SHIPPED else self.file(row, "yarns")
 
     def order(self, row: FactoryEntry) -> FactoryOrder:
         """The order of a table, without sizes and colourways."""

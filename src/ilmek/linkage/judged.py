@@ -81,10 +81,12 @@ class JudgedMechanism(Shown):
         return degrees_of_freedom(self.mechanism)
 
     @cached_property
-    def grashof(self) -> Grashof | None:
-        """Grashof's class of a four-bar; None of any other mechanism."""
+    def grashof(self) -> Grashof:
+        """Grashof's class of a four-bar. Raises MechanismError for any other mechanism."""
         lengths = link_lengths(self.mechanism)
-        return None if lengths is None else grashof(**lengths)
+        if lengths is None:
+            raise MechanismError(f"{self.mechanism.name} has no Grashof class", allowed="a four-bar of four pins")
+        return grashof(**lengths)
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:

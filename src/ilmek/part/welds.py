@@ -145,6 +145,17 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     return {name: tuple(own.values()) for name, own in welds.items()}
 
 
+def arc_partners(tree: Tree) -> Mapping[str, frozenset[str]]:
+    """The ids of the parts to which an arc welds each part of a tree: what it distorts is machined after."""
+    partners: dict[str, set[str]] = defaultdict(set)
+    for name, own in welds_of(tree).items():
+        for weld in own:
+            if weld.other and not weld.brazed:
+                partners[name].add(weld.other)
+                partners[weld.other].add(name)
+    return {name: frozenset(others) for name, others in partners.items()}
+
+
 def welded_pairs(tree: Tree) -> frozenset[frozenset[str]]:
     """Ids of the parts that welds join, by two: where they touch there is an edge for a seam."""
     return frozenset(frozenset(pair) for pair, welded in _joints(tree) if welded)

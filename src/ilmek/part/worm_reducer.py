@@ -1,8 +1,8 @@
 """Worm reducers: housing with covers, hollow shaft across the worm, torque arm.
 
-Axes: z along the worm, from the motor's flange at z = 0; the hollow shaft along x, its middle below the worm, at -y. The
-torque arm lies on the cover at +x, along -y; a shaft comes in from -x. The reducer hangs on this shaft, and its arm keeps
-it from turning: a screw in its eye, so that the shaft's run-out forces nothing.
+Axes: z along the worm, from the motor's flange at z = 0; the hollow shaft along x, its middle below the worm, at -y.
+The torque arm lies on the cover at +x, along -y; a shaft comes in from -x. The reducer hangs on this shaft, and its arm
+keeps it from turning: a screw in its eye, so that the shaft's run-out forces nothing.
 """
 
 import math
@@ -56,7 +56,7 @@ def journal(row: WormSize) -> float:
 def worm_reducer(  # noqa: PLR0917
     name: str, title: str, by: Reducer, row: WormSize, motor: Motor | None, end: KeyedEnd
 ) -> Part:
-    """A worm reducer of a size behind a motor, priced by its power; end  of the shaft in it: the room of both is open."""
+    """A worm reducer of a size, priced by its motor; end  of the shaft in it: the room of both is open."""
     corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
     bore, about = (
         circle(0j, abs(corner) + catalogue.HOLLOW),
@@ -86,7 +86,8 @@ def worm_reducer(  # noqa: PLR0917
     given = max(by.output_torque(motor.torque) if motor else 0.0, end.torque)
     request = "" if math.isclose(end.diameter, row.bore) else f", on request, not {in_mm(row.bore)}"
     data = (
-        f"{row.name}, hollow shaft {in_mm(end.diameter)} H7{request}, keyway DIN 6885-1, with disc and screw for its end",
+        f"{row.name}, hollow shaft {in_mm(end.diameter)} H7{request}, keyway DIN 6885-1",
+        "disc and screw for the end of the shaft",
         f"torque arm {in_mm(row.arm)} on a cover, its eye for {row.screw}",
         f"output {format_quantity(given, 'Nm', 3)}",
         *((f"for a motor with {catalogue.flange_text(motor)}",) if motor else ()),
@@ -95,9 +96,8 @@ def worm_reducer(  # noqa: PLR0917
         HolePattern(0.0, 0.0, row.screw, faces=(0,)),
         replace(*catalogue.flange_holes(motor), tapped=True, faces=(-1,)),
     )
-    bought = Bought(
-        f"worm reducer {by.ratio:g}:1", row.mass, power=motor.power if motor else 0.0, data=", ".join(data), holes=holes
-    )
+    power, kind = motor.power if motor else 0.0, f"worm reducer {by.ratio:g}:1"
+    bought = Bought(kind, row.mass, power=power, data=", ".join(data), holes=holes)
     return bought_part(name, title, "reducer", room, bought)
 
 

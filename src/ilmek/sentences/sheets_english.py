@@ -44,8 +44,7 @@ SHEETS = {
     "sheet.process-steel-tube": "sawn",
     "sheet.process-steel-bar": "sawn",
     "sheet.process-carbon-tube": "sawn",
-    "sheet.bearing-bonded": "Right plate: outer ring bonded with retaining compound; in the left one it slides",
-    "sheet.rings-bonded": "Inner rings of both bearings bonded with retaining compound, against the spacers",
+    "sheet.axial-play": "Axial play of the cam shaft between the plates' lips {low}…{high}: grind an end spacer",
     "sheet.shims": "Pile at nominal thickness, of sheets of {kit} mm; chosen at assembly: 0 to {most}, to {step}",
     "sheet.bonded": "bonded on its shaft with retaining compound",
     "sheet.gear": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, tip ⌀{tip}, root "
@@ -98,6 +97,11 @@ SHEETS = {
     "sheet.twist-left": "left",
     "sheet.members-placed": "Consists of; X, Y, Z from the lower left rear corner",
     "sheet.after-welding": "After welding: relieve stress at 550…600 °C, machine these seats, paint, mount the rest",
+    "sheet.true-ends": "{form}{letter}: total run-out {value} to {common}",
+    "sheet.finish-after-welding": "Welded to: {parts}; seats finished after that",
+    "sheet.finish-between-centres": (
+        "Welded to: {parts}; 0.5 mm left on the journals, which are finished after that between centres (DIN 332-1)"
+    ),
     "sheet.form": "Form, position",
     "sheet.positions": "Positions of the welded pieces from their lower left rear corner, X right, Y up, Z front",
     "sheet.members": "Consists of",
@@ -132,6 +136,7 @@ SHEETS = {
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "slides on a face",
     "sheet.keyway": "{times}keyway {size} at {at}",
+    "sheet.groove": "{times}groove {size} at {at}",
     "sheet.keyway-seat": "{keyway}, {length} long, {begin} from the left end",
     "sheet.floor": "{size} to its floor",
     "sheet.on-circle": "{holes} on ⌀{circle}",

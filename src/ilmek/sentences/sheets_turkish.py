@@ -44,8 +44,7 @@ SHEETS = {
     "sheet.process-steel-tube": "kesilir",
     "sheet.process-steel-bar": "kesilir",
     "sheet.process-carbon-tube": "kesilir",
-    "sheet.bearing-bonded": "Sağ levha: rulmanın dış bileziği yapıştırılır; sol levhada kayar",
-    "sheet.rings-bonded": "İki rulmanın iç bilezikleri ara parçalara dayalı yapıştırılır",
+    "sheet.axial-play": "Kam milinin levha faturaları arasında boşluğu {low}…{high}: uçtaki ara parça taşlanır",
     "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
     "sheet.gear": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, baş ⌀{tip}, dip ⌀{root}, "
@@ -98,6 +97,11 @@ SHEETS = {
     "sheet.twist-left": "sol",
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
     "sheet.after-welding": "Kaynaktan sonra: 550…600 °C'de gerilim giderin, yuvaları işleyin, boyayın, parçaları takın",
+    "sheet.true-ends": "{form}{letter}: {common} eksenine göre toplam salgı {value}",
+    "sheet.finish-after-welding": "Kaynaklandığı parça: {parts}; yuvalar ondan sonra bitirilir",
+    "sheet.finish-between-centres": (
+        "Kaynaklandığı parça: {parts}; muylularda 0,5 mm pay bırakılır, sonra puntalar arasında bitirilir (DIN 332-1)"
+    ),
     "sheet.form": "Biçim, konum",
     "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",
@@ -132,6 +136,7 @@ SHEETS = {
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "yüzeyde kayar",
     "sheet.keyway": "{times}kama yuvası {size}, {at}",
+    "sheet.groove": "{times}oluk {size}, {at}",
     "sheet.keyway-seat": "{keyway}, boyu {length}, sol uçtan {begin}",
     "sheet.floor": "tabanına {size}",
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",

@@ -2,17 +2,18 @@
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 
+from ilmek.carpet.yarn import Yarn
 from ilmek.errors import ParameterError, did_you_mean
 from ilmek.io.carpet_record import code_of, signing_key
 from ilmek.io.json_file import write_json
 from ilmek.io.orders_file import FactoryOrders, read_orders
 from ilmek.io.output import Outputs, joined
-from ilmek.io.selling.approval import write_approval
+from ilmek.io.selling.approval import write_approval, write_card
 from ilmek.io.selling.label import import_codes
 from ilmek.io.selling.offer import Offer
 from ilmek.io.selling.quotation import write_quotation
@@ -96,7 +97,8 @@ def work_order(
         by_name = dict(zip((order.name for order in orders.orders), folders, strict=True))
         woven = tuple(woven_rows(line.charted.chart, runs.get(line.name)) for line in lines)
         languages = orders.workshop_language, orders.language
-        terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, signer)
+        lots = {yarn.name: yarn.lot for yarn in plan.inputs.looms_file.yarns if yarn.lot}
+        terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, lots, signer)
         files, codes, left_out = list[str](), list[tuple[str, ...]](), list[str]()
         for number, (line, rows) in enumerate(zip(lines, woven, strict=True)):
             own, share = by_name[line.name], 0.5 / len(lines)
@@ -105,15 +107,21 @@ def work_order(
                 names, records = write_workshop(line, terms, rows, work, before=own, left_out=left_out, progress=on)
             files += [str(own / name) for name in names]
             codes.append(tuple(str(code_of(one)) for one in records))
-        names = ["quotation.pdf", "approval.pdf"] if lines else []
+        names = ["quotation.pdf", "approval.pdf", "colour-card.pdf"] if lines else []
         files = [*(str(folder / OFFER / name) for name in (*names, ORDER_DATA)), *files]
         done = OrderResult(orders, plan, lines, offer, woven, tuple(codes), tuple(files), tuple(left_out))
         with made.folder(folder / OFFER) as work, in_language(orders.language):
             if lines:
                 write_quotation(work / names[0], offer)
                 write_approval(work / names[1], offer)
+                write_card(work / names[2], _shelf(lines), lots, offer.reference)
             write_json(work / ORDER_DATA, order_json(done))
     return done
+
+
+def _shelf(lines: Sequence[OrderLine]) -> tuple[Yarn, ...]:
+    """The yarns that the order's lists offer, each once."""
+    return tuple({yarn.name: yarn for line in lines for yarn in line.charted.order.yarns}.values())
 
 
 def slugs(names: list[str]) -> list[str]:

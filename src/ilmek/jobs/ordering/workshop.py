@@ -1,6 +1,6 @@
 """The folder of a carpet for the workshop: chart, rows, yarn, mounting sheet, wages, strike-off, label and record."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,7 @@ class WorkshopTerms:
     """What the folders of all carpets have in common.
 
     language  of the weavers; customer_language: of the labels
+    lots      the dye lot in stock of each yarn
     key       that signs the records; None: they are not signed
     """
 
@@ -43,6 +44,7 @@ class WorkshopTerms:
     wage: WageRules | None
     language: str
     customer_language: str
+    lots: Mapping[str, str]
     key: Any = None
 
 
@@ -71,7 +73,7 @@ def write_workshop(
     for number in range(1, line.planned.entry.quantity + 1):
         file = f"record-{number}.json"
         rows = woven if number == 1 else NOT_BEGUN
-        found = carpet_record(terms.reference, line, number, rows, before / file)
+        found = carpet_record(terms.reference, line, number, rows, before=before / file, lots=terms.lots)
         made = signed_record(found, terms.key)
         (work / file).write_text(json_text(made), encoding="utf-8")
         label = f"label-{number}.pdf"

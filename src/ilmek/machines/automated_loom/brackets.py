@@ -276,9 +276,8 @@ def _of_seat(  # noqa: PLR0917
     ends, half = (float(moved.imag.min()), float(moved.imag.max())), seat.side / 2
     flange = _screwed(driven)
     radius = min(_radius(loom, moment, ends, max(seat.radius, flange)), max(most, half, flange))
-    if (
-        shift is not None and driven is not None
-    ):  # square at its end: a round one would reach farther to what lays the weft
+    # Square at its end: a round one would reach farther to what lays the weft.
+    if shift is not None and driven is not None:
         ends, radius = (ends[0] - radius + _CORNER, ends[1] + radius - _CORNER), _CORNER
         moved_ends, beyond = at.real + 1j * np.array(ends), seat.half_width(driven) - _CORNER
     else:

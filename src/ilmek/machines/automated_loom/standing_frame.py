@@ -195,7 +195,7 @@ def cylinder_positions(loom: LoomDesign) -> dict[str, Placement]:
 
 
 def _arm_eyes(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[tuple[Cylinder, Placement, float]]:
-    """Cylinders with the faces of the eyes of their reducers' torque arms, and these before the columns' outer faces."""
+    """Cylinders with the faces of the eyes of their torque arms, and how far these are before the columns [m]."""
     face, design = max(frame.beside(made.face)) + frame.column.side / 2, loom.warp_tension
     for own in () if design.params.by_hand else cylinders(design):
         eye = cylinder_positions(loom)[own.name].after(IN_LOOM[own.name].eye(design, own))

@@ -38,7 +38,7 @@ BRIGHT = MATERIALS["heat-treatable steel"]
 def attachment_bar(thick: float, wide: float) -> Part:
     """A bar, by its diameter and length [m]."""
     title = "attachment bar of the warps"
-    held = "lies half in its slot, where the first turn of the warps keeps it"
+    held = "lies half in its slot, by cable ties at its ends until the first turn of the warps keeps it"
     return Part(ATTACHMENT_BAR, title, "steel bar", bar(thick, wide), BRIGHT, fixing=held)
 
 

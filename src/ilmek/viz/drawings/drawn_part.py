@@ -17,10 +17,10 @@ from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.specification import PartSpecification, specification
-from ilmek.part.tolerances import ToleratedFeature, groove_tolerance
+from ilmek.part.tolerances import FitDuty, ToleratedFeature, groove_tolerance
 from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
-from ilmek.part.welds import Weld, welds_of
+from ilmek.part.welds import Weld, arc_partners, welds_of
 from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import circle
 from ilmek.records import record
@@ -143,7 +143,11 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume,
-        (*(part.notes if part is not None and part.cam is not None else plate.notes), *_row(part, plate.tree)),
+        (
+            *(part.notes if part is not None and part.cam is not None else plate.notes),
+            *_row(part, plate.tree),
+            *_welded(part, plate.tree),
+        ),
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
         _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent, kinds=_kinds(part, plate.tree),
     )  # fmt: skip
@@ -155,7 +159,8 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
-        (*(part.notes if part else ()), *_row(part, piece.tree)), features=_features(piece.features),
+        (*(part.notes if part else ()), *_row(part, piece.tree), *_welded(part, piece.tree)),
+        features=_features(piece.features),
         stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
     )  # fmt: skip
 
@@ -171,6 +176,16 @@ def _row(part: Part | None, tree: object) -> Iterator[Sentence]:
             sizes = {"pitch": millimetres(pitch), "error": millimetres(groove_tolerance(pitch))}
             yield Sentence("sheet.row", number=str(number), **sizes)
             return
+
+
+def _welded(part: Part | None, tree: object) -> Iterator[Sentence]:
+    """What a machined part is welded to before its seats are finished, journals between centres."""
+    if part is None or not part.machined or not isinstance(tree, Tree) or part.id not in arc_partners(tree):
+        return
+    titles = {own.id: own.title for own, _ in tree.occurrences()}
+    to = ", ".join(sorted({titles[name] for name in arc_partners(tree)[part.id]}))
+    journals = any(own.duty is FitDuty.BEARING for own in tolerances_of(tree).get(part.id, ()))
+    yield Sentence("sheet.finish-between-centres" if journals else "sheet.finish-after-welding", parts=to)
 
 
 _LEAST_ROW = 9

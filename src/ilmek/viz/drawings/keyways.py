@@ -3,13 +3,17 @@
 import cmath
 import math
 
+from ilmek.elements.fits import tolerance_grade
 from ilmek.part.tolerances import FeatureKind
 from ilmek.plane.contours import KeyedCircle
 from ilmek.report.sheet import DimensionKind
 from ilmek.sentences import Sentence
-from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.fits import Fits, limits
 from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import DrawnView
+
+_GROOVE = 12
+"""Grade of the width of a groove that is no keyway of DIN 6885; assumed by this project."""
 
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
 
@@ -28,7 +32,8 @@ def keyway(
     at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
     ends = (corners[0] * view.scale, corners[1] * view.scale)
     note = fits.note(bore.width, _KEYWAYS[kind])
-    width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
+    words, name = (note.words, "sheet.keyway") if note.words else (_groove_limits(bore.width), "sheet.groove")
+    width = Sentence(name, times=times, size=f"{millimetres(bore.width)}{words}", at=at)
     if seat is not None:
         begin, length = map(millimetres, seat)
         width = Sentence("sheet.keyway-seat", keyway=width, length=length, begin=begin)
@@ -40,3 +45,8 @@ def keyway(
     view.leader(
         floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
     )  # fmt: skip
+
+
+def _groove_limits(width: float) -> str:
+    """Class and deviations of the width of a groove that is no keyway: H12."""
+    return f" H{_GROOVE}{limits(0.0, tolerance_grade(_GROOVE, width))}"

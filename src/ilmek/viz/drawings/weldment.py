@@ -4,18 +4,20 @@ X runs to the right and Y upwards in the front view of its first sheet, Z toward
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import chain
 
 import numpy as np
 
 from ilmek.arrays import Float
+from ilmek.elements.fits import tolerance_grade
 from ilmek.part.assemblies import AssembledPiece, AssemblyItem, AssemblyUnit
 from ilmek.part.colliders import collider
-from ilmek.part.tolerances import FeatureKind
+from ilmek.part.placement import Placement
+from ilmek.part.tolerances import FeatureKind, FitDuty, ToleratedFeature
 from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
-from ilmek.part.welds import welds_of
+from ilmek.part.welds import arc_partners, welds_of
 from ilmek.sentences import Sentence
+from ilmek.units import um
 from ilmek.viz.drawings.fits import named_feature
 from ilmek.viz.drawings.joined import span_words
 from ilmek.viz.drawings.paper import BLOCK_HEIGHT, EDGE, LEFT, PAPERS, table
@@ -78,15 +80,49 @@ def _machined(
     tree: Tree, items: Sequence[AssemblyItem], welded: Sequence[tuple[AssembledPiece, Ends]]
 ) -> Iterator[tuple[str, ...]]:
     """The seats of pieces that an arc welds, but their threads: what, size, form or position [mm], what for."""
-    tolerances = tolerances_of(tree)
-    arcs = ((name, weld.other) for name, own in welds_of(tree).items() for weld in own if not weld.brazed)
-    hot = frozenset(chain.from_iterable(arcs))
-    for piece, _ in welded:
-        for feature in tolerances.get(piece.part.id, ()) if piece.part.machined and piece.part.id in hot else ():
-            if feature.kind is not FeatureKind.THREAD:
-                kind, size, duty = named_feature(feature)
-                form = ", ".join(millimetres(limit.value) for limit in feature.geometric)
-                yield items[piece.item].name, piece.part.title, kind, size, form, duty
+    tolerances, hot = tolerances_of(tree), arc_partners(tree)
+    seats = [
+        (piece, feature)
+        for piece, _ in welded
+        for feature in tolerances.get(piece.part.id, ())
+        if piece.part.machined and piece.part.id in hot and feature.kind is not FeatureKind.THREAD
+    ]
+    ends = _shaft_ends(seats)
+    for number, (piece, feature) in enumerate(seats):
+        kind, size, duty = named_feature(feature)
+        form = "".join(f"{millimetres(limit.value)}; " for limit in feature.geometric)
+        if number in ends:
+            value = millimetres(tolerance_grade(END_GRADE, feature.nominal))
+            letter, common = ends[number]
+            form = Sentence("sheet.true-ends", form=form, letter=letter, value=value, common=common)
+        yield items[piece.item].name, piece.part.title, kind, size, form.removesuffix("; "), duty
+
+
+END_GRADE = 7
+"""Grade of ISO 286 of the run-out of the journals at both ends of a welded shaft, about their common axis; assumed."""
+
+
+def _shaft_ends(seats: Sequence[tuple[AssembledPiece, ToleratedFeature]]) -> dict[int, tuple[str, str]]:
+    """Datums of the journals of welded shafts by their numbers, and their common axis: none of a single journal."""
+    lines: list[list[tuple[int, Placement]]] = []
+    for number, (piece, feature) in enumerate(seats):
+        if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING:
+            lies = piece.position.after(feature.position)
+            on = (own for own in lines if _on_axis(own[0][1], lies))
+            line = next(on, None)
+            lines.append([(number, lies)]) if line is None else line.append((number, lies))
+    letters = iter("ABCDEFGHJKLMNPQRSTUVWXYZ")
+    ends = [(line[0][0], line[-1][0]) for line in lines if len(line) > 1]
+    named = [(pair, next(letters), next(letters)) for pair in ends]
+    return {
+        number: (own, f"{first}-{last}")
+        for pair, first, last in named
+        for number, own in zip(pair, (first, last), strict=True)
+    }
+
+
+def _on_axis(axis: Placement, other: Placement) -> bool:
+    return bool(np.abs(np.cross(axis.rotation[:, 2], other.origin - axis.origin)).max() < um)
 
 
 def _beside(rows: Sequence[tuple[str, ...]], seats: Sequence[tuple[str, ...]], paper: str) -> list[SheetPicture] | None:
