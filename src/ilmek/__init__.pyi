@@ -3,6 +3,7 @@ from ilmek import carpet as carpet
 from ilmek import dynamics as dynamics
 from ilmek import linkage as linkage
 from ilmek import loom as loom
+from ilmek import results as results
 from ilmek import synthesis as synthesis
 from ilmek import timing as timing
 from ilmek import units as units

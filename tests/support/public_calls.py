@@ -106,7 +106,7 @@ class Call:
     long: bool = False
 
 
-NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "synthesis", "timing", "weaving")
+NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "results", "synthesis", "timing", "weaving")
 
 BUILT = {
     "Motion": "built by solve; its methods are called below",

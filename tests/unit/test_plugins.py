@@ -58,7 +58,8 @@ from ilmek.io.plc.targets import TARGETS
 chart = ilmek.Chart.of([[0, 1], [1, 1]], ilmek.read_yarns()[:2], "4x4cm", "5x5/dm")
 ilmek.write_chart("chart.rle", chart)
 print(open("chart.rle").read())
-print([check.name for check in ilmek.design("lamp", width="4m").failed], ilmek.list_machines()["lamp"], ilmek.design("beat-up").machine)
+failed = [check.name for check in ilmek.design("lamp", width="4m").failed]
+print(failed, ilmek.list_machines()["lamp"], ilmek.design("beat-up").machine)
 print(float(ilmek.motion_law("smoothstep").s(0.5)), TARGETS["soft"].title, list(TARGETS)[-1])
 print([entry.name for entry in ilmek.parameters("lamp")])
 """

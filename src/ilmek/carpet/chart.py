@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, CellMap, require_knots
+from ilmek.carpet.chart_counts import ChartCounts
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES, NO_KNOT, recoded
 from ilmek.carpet.design import require_grid
@@ -21,15 +21,10 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
-from ilmek.report.shown import Shown
-
-if TYPE_CHECKING:
-    from ilmek.carpet.bill import YarnBill
-    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
-class Chart(Shown):
+class Chart(ChartCounts):
     """A knot chart; what is given is checked, and converted where nothing is lost.
 
     knots    index in `yarns` of each knot's yarn, (rows, columns), NO_KNOT where `cells` have none; row 0 is the top of
@@ -84,29 +79,14 @@ class Chart(Shown):
 
     @classmethod
     def of(
-        cls,
-        knots: Any,
-        yarns: Sequence[Yarn],
-        size: str | CarpetSize,
-        quality: str | Quality,
-        knot: str = "symmetric",
+        cls, knots: Any, yarns: Sequence[Yarn], size: str | CarpetSize, quality: str | Quality, knot: str = "symmetric"
     ) -> "Chart":
-        """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
+        """The chart of an array of indices in `yarns`; size and quality also as texts: "30x40cm", "10x10/dm".
 
-        Raises as the class.
+        Yarns without a count have the usual one of the quality. Raises as the class.
         """
-        return cls(knots, yarn_list(yarns), carpet_size(size), carpet_quality(quality), knot)
-
-    @property
-    def statistics(self) -> "ChartStatistics":
-        """Changes of yarn by row, the hardest rows, small patches."""
-        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
-        return made
-
-    def bill(self) -> "YarnBill":
-        """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
-        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
-        return made
+        knotted, kind = carpet_quality(quality), parse_knot(knot)
+        return cls(knots, with_counts(yarn_list(yarns), knotted, kind), carpet_size(size), knotted, kind)
 
     @property
     def rows(self) -> int:

@@ -140,7 +140,11 @@ class JudgedMechanism(Shown):
 
     def dwells(self, output: str, tolerance: float) -> tuple[Dwell, ...]:
         """Dwells of an output about its limits, the longest first; tolerance to either side [rad, m]."""
-        return dwells(self.moved, self.output(output), tolerance, *self.inside)
+        first, last = self.inside
+        if self.turns:  # a turn begins where the output is quickest, so that no dwell is cut
+            first = float(self.values[np.nanargmax(np.abs(self.ratio(output)))])
+            last = first + turn
+        return dwells(self.moved, self.output(output), tolerance, first, last)
 
     def time_ratio(self, output: str) -> float:
         """Time ratio of an output with two limits at a constant speed of the input: the slow stroke by the quick one.

@@ -68,7 +68,7 @@ ABOVE_CYLINDER = 50 * mm
 _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
 
-_COLUMN_ROOM = ((150 * mm, 150 * mm), (math.inf, 220 * mm))
+_COLUMN_ROOM = ((150 * mm, 150 * mm), (math.inf, 320 * mm))
 """Half of the width of a cylinder's reducer, at most, and least room of the columns beside it [m]: looms with larger
 reducers have wider columns; assumed by this project.
 """

@@ -55,6 +55,9 @@ HUB = 1.7 * mm
 BONDED = "bonded with epoxy resin"
 """How parts of a few grams are held that have no room for screws."""
 
+ELBOW_SCREWS = "its maker's screws, through the link"
+"""How a servo stands in an elbow."""
+
 EDGE = 3 * mm
 """Of the plate about a sleeve [m]; assumed by this project."""
 
@@ -130,7 +133,7 @@ def sleeve(levels: DriveLevels, hole: float) -> Occurrence:
     outer = hole + 2 * WALL
     pipe = Placed(tube(outer, WALL, levels.top - levels.first), (placement(z=levels.first),))
     ring = Placed(_pulley(outer), (placement(z=levels.first),))
-    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)))
+    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)), BONDED)
 
 
 def shaft(levels: DriveLevels, hole: float) -> tuple[Occurrence, Occurrence]:

@@ -26,7 +26,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.part.worm_reducer import BEFORE, eye, hung, journal, worm_reducer
+from ilmek.part.worm_reducer import BEFORE, eye, hung, inlet, journal, motor_in, worm_reducer
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
@@ -169,8 +169,11 @@ def _bodies(  # noqa: PLR0917
     if params.by_hand:
         carried = _on_bracket(params, drive, far + seat.through)
     else:
-        hung_at = _side(z=0.0, flipped=hanging.flipped).after(hung(row, design.ratio, middle, hanging.arm))
-        carried = tuple(Occurrence(part, (hung_at,)) for part in drive)
+        motor = design.motor
+        lies = hung(row, inlet(row, design.ratio, motor), middle, hanging.arm)
+        geared = _side(z=0.0, flipped=hanging.flipped).after(lies)
+        places = geared, geared.after(motor_in(row, design.ratio, motor))
+        carried = tuple(Occurrence(part, (own,)) for part, own in zip(drive, places, strict=True))
     return (*bodies, RigidBody(part_id(f"{name} drive"), carried, positions=(position,)))
 
 
@@ -250,9 +253,12 @@ def flanged(design: WarpTensionDesign) -> Part | None:
 
 
 def hangs(design: WarpTensionDesign) -> float:
-    """From the axis of a cylinder to the end of its motor, across the shaft [m]."""
-    length = design.motor.length if design.motor else 2 * catalogue.SPECIAL_FACE
-    return _worm(design, cylinders(design)[0])[0].to_motor(design.ratio) + length
+    """From the axis of a cylinder to the end of its reducer, or of the motor in line with it, across the shaft [m]."""
+    row, length = (
+        _worm(design, cylinders(design)[0])[0],
+        design.motor.length if design.motor else 2 * catalogue.SPECIAL_FACE,
+    )
+    return inlet(row, design.ratio, design.motor) + (0.0 if row.first(design.ratio) else length)
 
 
 def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
