@@ -16,7 +16,7 @@ from reportlab.pdfbase import pdfmetrics
 
 from ilmek import sentences
 from ilmek.carpet.bill import yarn_bill
-from ilmek.carpet.cells import CUT_AWAY, PILE, Cells
+from ilmek.carpet.cells import CUT_AWAY, PILE, CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
@@ -47,7 +47,7 @@ CODES = re.compile(r"(?<![A-Za-z])(AC?|B|C|L|R|jB?|strike-off\.pdf)(?![A-Za-z])"
 
 
 def chart_of(
-    rows: int, columns: int, yarns: int = 4, *, size: CarpetSize | None = None, cells: Cells | None = None
+    rows: int, columns: int, yarns: int = 4, *, size: CarpetSize | None = None, cells: CellMap | None = None
 ) -> Chart:
     """A chart of diagonal stripes, with marks where it has four yarns."""
     size = size or CarpetSize(columns / 250, rows / 250)
@@ -69,7 +69,7 @@ CHARTS = [
     chart_of(9, 60, 60),  # a legend of two pages
 ]
 outside = np.hypot(*(np.indices((24, 24)) - 11.5)) > 12
-CHARTS.insert(1, chart_of(24, 24, cells=Cells(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
+CHARTS.insert(1, chart_of(24, 24, cells=CellMap(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
 
 
 def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Path]:

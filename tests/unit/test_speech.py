@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from processes import PATIENCE
 from tests.unit.test_call_command import CHART, MARKED
 
 from ilmek.cli import main
@@ -34,12 +35,10 @@ def program(folder: Path, name: str, script: str = RECORDER) -> Path:
     return folder / "said"
 
 
-def waited(file: Path, text: str) -> str:
-    end = time.monotonic() + 20
-    while not file.exists() or text not in file.read_text(encoding="utf-8"):
-        assert time.monotonic() < end
-        time.sleep(0.02)
-    return file.read_text(encoding="utf-8")
+def ended(speaker: Speaker) -> None:
+    """Wait until the program has ended by itself."""
+    assert speaker._process is not None
+    speaker._process.wait(PATIENCE)
 
 
 @pytest.fixture
@@ -63,9 +62,11 @@ def test_each_program_gets_language_and_text(name: str, arguments: str, only: Pa
     said = program(only, name)
     with Speaker("tr") as speaker:
         speaker.say("sıra 1. 12. kökboya kırmızısı.")
-        text = waited(said, "kırmızısı")
+        ended(speaker)
+        assert not speaker.failed
+    text = said.read_text(encoding="utf-8")
     assert text.startswith(arguments)
-    assert not speaker.failed
+    assert "kökboya kırmızısı" in text
 
 
 def test_a_new_text_stops_the_one_before(only: Path) -> None:
@@ -93,10 +94,8 @@ def test_a_program_that_fails_is_noted(only: Path) -> None:
     program(only, "espeak-ng", "#!/bin/sh\nexit 1\n")
     with Speaker("ne") as speaker:
         speaker.say("लहर")
-        end = time.monotonic() + 20
-        while not speaker.failed:
-            assert time.monotonic() < end
-            time.sleep(0.02)
+        ended(speaker)
+        assert speaker.failed
 
 
 def test_steps_are_spoken_in_every_language() -> None:

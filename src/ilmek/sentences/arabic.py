@@ -210,6 +210,7 @@ ARABIC = {
     "order.number": "الرقم",
     "order.yarn": "الخيط",
     "order.lots": "دفعات الصباغة",
+    "order.lot": "دفعة الصباغة",
     "order.mounting": "ورقة التسدية",
     "order.knot": "العقدة",
     "order.cm": "{length} سم",

@@ -209,6 +209,7 @@ HINDI = {
     "order.number": "क्रमांक",
     "order.yarn": "धागा",
     "order.lots": "रँगाई के घान",
+    "order.lot": "रँगाई का घान",
     "order.mounting": "ताना लगाने का पन्ना",
     "order.knot": "गाँठ",
     "order.cm": "{length} सेमी",

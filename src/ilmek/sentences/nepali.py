@@ -208,6 +208,7 @@ NEPALI = {
     "order.number": "क्रम",
     "order.yarn": "धागो",
     "order.lots": "रङाइका घान",
+    "order.lot": "रङाइको घान",
     "order.mounting": "ताना लगाउने पाना",
     "order.knot": "गाँठो",
     "order.cm": "{length} सेमी",

@@ -211,6 +211,7 @@ PERSIAN = {
     "order.number": "شماره",
     "order.yarn": "نخ",
     "order.lots": "پاتیل‌های رنگ",
+    "order.lot": "پاتیل رنگ",
     "order.mounting": "برگ چله‌کشی",
     "order.knot": "گره",
     "order.cm": "{length} سانتی‌متر",

@@ -212,6 +212,7 @@ URDU = {
     "order.number": "نمبر",
     "order.yarn": "دھاگا",
     "order.lots": "رنگائی کے گھان",
+    "order.lot": "رنگائی کا گھان",
     "order.mounting": "تانا لگانے کا ورق",
     "order.knot": "گرہ",
     "order.cm": "{length} سینٹی میٹر",
