@@ -23,7 +23,7 @@ from skimage.color import rgb2lab
 
 import ilmek
 from ilmek.arrays import FloatArray, Indices, Rgb
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, srgb_to_lab, xyz_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.design import bands

@@ -16,7 +16,7 @@ from skimage.transform import resize
 
 from benchmarks.bench_chart import best_of, medallion, wool
 from ilmek.arrays import Indices, Rgb
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.flat import flat_design
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.quality import Quality

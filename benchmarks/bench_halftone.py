@@ -16,7 +16,7 @@ from skimage.color import deltaE_ciede2000, rgb2lab
 
 from benchmarks.bench_chart import QUALITY, wool
 from ilmek.arrays import FloatArray, Indices, Rgb
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.colour import LINEAR, encode, srgb_to_lab
 from ilmek.carpet.palette import distinct_colours
 from ilmek.carpet.proposal import propose_shades

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.sizes import parse_size
 from ilmek.io.picture import read_picture

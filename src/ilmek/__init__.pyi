@@ -3,6 +3,7 @@ from ilmek import carpet as carpet
 from ilmek import dynamics as dynamics
 from ilmek import linkage as linkage
 from ilmek import loom as loom
+from ilmek import results as results
 from ilmek import synthesis as synthesis
 from ilmek import timing as timing
 from ilmek import units as units
@@ -22,6 +23,7 @@ from ilmek.api.carpets import weave as weave
 from ilmek.api.carpets import write_chart as write_chart
 from ilmek.api.designs import design as design
 from ilmek.api.designs import list_machines as list_machines
+from ilmek.api.designs import parameters as parameters
 from ilmek.api.designs import reproduce as reproduce
 from ilmek.api.four_bars import crank_rocker as crank_rocker
 from ilmek.api.four_bars import function_four_bars as function_four_bars

@@ -236,3 +236,9 @@ def layout(cls: Any) -> tuple[tuple[str, DeclaredResult | None, str | None], ...
     for base in reversed(cls.__mro__):
         found += [(name, one.declaration, None) for name, one in vars(base).items() if isinstance(one, Computed)]
     return tuple(found)
+
+
+def alike(kind: Callable[..., T], source: object, /, **more: object) -> T:
+    """A record of a class, with what a source has under the names of its fields, but for the fields that are given."""
+    names = (field.name for field in fields(kind) if field.name not in more and hasattr(source, field.name))  # type: ignore[arg-type]
+    return kind(**{name: getattr(source, name) for name in names}, **more)

@@ -3,6 +3,8 @@ import { connect } from "./api/events";
 import { App } from "./app/app";
 import { applySettings } from "./app/settings";
 import { follow } from "./project";
+import "./ui/tokens.css";
+import "./ui/parts.css";
 import "./ui/style.css";
 import "./app/app.css";
 

@@ -57,7 +57,7 @@ def test_an_arm_that_is_taken_away_leaves_the_weft_side_in_the_air() -> None:
 
 
 @pytest.mark.matrix(light=2)
-@pytest.mark.parametrize("name", ["weaver/side-plate", "warp-tension/upper-bearing", "shedding/guide-cam"])
+@pytest.mark.parametrize("name", ["weaver/left-side-plate", "warp-tension/upper-bearing", "shedding/guide-cam"])
 def test_a_part_that_is_moved_by_a_millimetre_is_through_another(name: str) -> None:
     """One piece of it, to all sides: to one of them its neighbour is."""
 

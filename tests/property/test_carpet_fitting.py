@@ -9,7 +9,7 @@ from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.design import distortion
 from ilmek.carpet.fitting import Fit, FitParams, border_colour
 from ilmek.carpet.projection import inner_rectangle, outer_rectangle

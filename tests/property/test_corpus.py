@@ -13,7 +13,8 @@ from drawings import FINISHES, FLAT, Drawing, colours_in_cells, rendered, sunset
 from PIL import Image
 from scipy import ndimage
 
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.colour import LINEAR, srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.flat import looks_flat

@@ -13,7 +13,8 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 from ilmek.arrays import Rgb
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.chroma import NOT_HALVED, halved_axes, whole_chroma
 from ilmek.carpet.quality import Quality

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.arrays import Rgb
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.fitting import FitParams
 from ilmek.carpet.quality import Quality

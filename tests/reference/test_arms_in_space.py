@@ -145,4 +145,4 @@ def test_a_servo_moved_into_the_case_is_found() -> None:
         frozenset(pair.parts)
         for pair in contacts(tree.replaced(moved if body.id == moved.id else body for body in tree.bodies)).through
     }
-    assert frozenset({"weaver/side-plate", SERVOS[0]}) in through
+    assert frozenset({"weaver/right-side-plate", SERVOS[0]}) in through

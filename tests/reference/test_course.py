@@ -8,23 +8,15 @@ and Lowen 1969 (complete force balance).
 import ast
 import json
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from course_code import COURSE, NOTEBOOKS, code_cells
 
-COURSE = Path(__file__).parents[2] / "docs" / "course"
-NOTEBOOKS = sorted(COURSE.glob("*.ipynb"))
 IMPORTS = {"ilmek", "numpy", "ilmek.units"}
 MOST_LINES = 40
 deg = np.pi / 180
-
-
-def code_cells(path: Path) -> list[str]:
-    """The code of a notebook by cells."""
-    cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
-    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
 
 
 @cache

@@ -14,7 +14,8 @@ from scipy import ndimage
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 from ilmek.carpet import halftone
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import bands
 from ilmek.carpet.halftone import CELL, STEP, draw_halftone

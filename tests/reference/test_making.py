@@ -129,7 +129,7 @@ def cam(part: Measured) -> float:
         ("automated-loom/upper-bracket", lambda part: laser(part, 6) + tapped(4, 12e-3, 20e-3)),
         ("hammer/leaf", lambda part: laser(part, 1)),
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
-        ("weaver/side-plate", lambda part: milled(part, 2, ALLOY, 6.0)),
+        ("weaver/left-side-plate", lambda part: milled(part, 2, ALLOY, 6.0)),
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
         ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3) + finished(part)),
         ("tension-compensator/pin", lambda part: turned(part, 1.3, 16e-3, math.pi / 2 * 16e-3**2)),

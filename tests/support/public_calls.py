@@ -106,7 +106,7 @@ class Call:
     long: bool = False
 
 
-NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "synthesis", "timing", "weaving")
+NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "results", "synthesis", "timing", "weaving")
 
 BUILT = {
     "Motion": "built by solve; its methods are called below",
@@ -654,7 +654,18 @@ CALLS: dict[str, Call] = {
         dict(time_limit=Quantity(1.0, "s"), progress=Other(ilmek.Progress())),
         long=True,
     ),
+    "Chart.of": Call(
+        ilmek.Chart.of,
+        (
+            Other(KNOTS, equal=tuple(KNOTS.astype(kind) for kind in KINDS), wrong=WRONG_KNOTS),
+            Other(ilmek.read_yarns()[:2], wrong=(("red", "blue"),)),
+            Other("30x40cm", wrong=("30x40", 3, (0.3, 0.4))),
+            Other("10x10/dm", wrong=("x", 3)),
+            Named("symmetric"),
+        ),
+    ),
     "list_machines": Call(ilmek.list_machines),
+    "parameters": Call(ilmek.parameters, (Named("beat-up"),)),
     "design": Call(
         ilmek.design,
         (Named("beat-up"), Other({"beta": "48deg"}, wrong=({1: 2}, [1], {"beta": "48m"}, {"beta": np.zeros(2)}))),

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.bill import YarnBill, yarn_bill
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.palette_rules import PaletteParams

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from ilmek.carpet import confetti, design, differences, palette, patches, tally
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize

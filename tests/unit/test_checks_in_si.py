@@ -11,7 +11,7 @@ from sources import tree_of
 
 import ilmek
 from ilmek.cli.terminal import show_checks
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.report import Check
 from ilmek.units import format_quantity, parse_quantity, parse_unit
 
@@ -51,7 +51,7 @@ def checks(machine: str) -> tuple[Check, ...]:
     return tuple(default_report(machine).all_checks)
 
 
-@pytest.mark.parametrize("machine", SUMMARIES)
+@pytest.mark.parametrize("machine", ENTRIES)
 @pytest.mark.one_in(3)
 def test_value_and_limit_have_the_magnitude_of_si(machine: str) -> None:
     for check in checks(machine):
@@ -61,7 +61,7 @@ def test_value_and_limit_have_the_magnitude_of_si(machine: str) -> None:
             assert abs(check.limit) >= LEAST.get(check.unit, 0.0), check
 
 
-@pytest.mark.parametrize("machine", SUMMARIES)
+@pytest.mark.parametrize("machine", ENTRIES)
 def test_the_shown_text_is_the_number_of_the_json_over_its_unit(machine: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rows: list[tuple[str, ...]] = []
     monkeypatch.setattr("ilmek.cli.terminal.show_table", lambda _, found, **__: rows.extend(found))

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import re
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,8 @@ from ilmek.io.cyclogram_file import read_cyclogram
 from ilmek.jobs.cyclogram import columns
 from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
-from ilmek.units import deg, turn
+from ilmek.units import turn
+from ilmek.viz.plain.figures import shown_figure
 from ilmek.viz.svg import svg
 
 PRESS = str(Path(__file__).parents[2] / "examples" / "press.toml")
@@ -44,7 +44,7 @@ def test_a_solved_cyclogram_is_written_read_and_found_solved(tmp_path: Path) -> 
     assert again.period == pytest.approx(0.4278743, rel=1e-6)
     assert all(check.ok for check in check_cyclogram(again))
     html = page.read_text(encoding="utf-8")
-    assert 'class="wide timed"' in html
+    assert 'class="shown wide"' in html
     assert "https://" not in html.replace("https://ilmek.invalid", "").replace("http://www.w3.org", "")
 
 
@@ -110,19 +110,23 @@ def test_a_relation_loop_in_a_file_is_named(tmp_path: Path) -> None:
         assert one in told
 
 
-def test_the_drawing_carries_laws_windows_arrows_and_what_the_script_needs() -> None:
+def test_the_drawing_carries_laws_windows_arrows_and_what_the_client_draws() -> None:
     text = svg(figure(solved()))
     for words in ("modified-sine (0.2)", "in the tool", "pressed", "3-4-5"):
         assert words in text
-    run_of = json.loads(re.search(r"<metadata>(.*?)</metadata>", text)[1])
-    assert [lane["unit"] for lane in run_of["lanes"]] == ["mm"] * 3
-    cycloidal = run_of["laws"][run_of["lanes"][0]["moves"][0][4]]
-    places = np.linspace(0, 1, len(cycloidal[0]))
-    for row, exact in zip(cycloidal, (LAWS["cycloidal"].s, LAWS["cycloidal"].v, LAWS["cycloidal"].a), strict=True):
-        assert row == pytest.approx(exact(places), abs=1e-5)
-    start, end, begin, finish, _ = run_of["lanes"][1]["moves"][0]
-    down = solved().cyclogram.track("die").segment("down")
-    assert (start * deg, end * deg, begin, finish) == pytest.approx((down.start, down.end, 0.0, 100.0), rel=1e-5)
+    timing = shown_figure(figure(solved()), {}).timing
+    assert [lane.shown_unit for lane in timing.lanes] == ["mm"] * 3
+    cyclogram = solved().cyclogram
+    feed, down = cyclogram.tracks[0].segments[0], cyclogram.track("die").segment("down")
+    lane, law = timing.lanes[0], LAWS["cycloidal"]
+    angle, beta = np.array(lane.angle), feed.end - feed.start
+    inside = (angle > feed.start) & (angle < feed.end)
+    u, speed = (angle[inside] - feed.start) / beta, 2 * np.pi / cyclogram.period / beta
+    exact = (feed.begin + feed.stroke * law.s(u), feed.stroke * speed * law.v(u), feed.stroke * speed**2 * law.a(u))
+    for row, values in zip(lane.motion, exact, strict=True):
+        assert np.array(row)[inside] == pytest.approx(values, abs=1e-4 * np.abs(values).max())
+    move = timing.lanes[1].moves[0]
+    assert (move.start, move.end, move.begin, move.finish) == pytest.approx((down.start, down.end, 0.0, 0.1), rel=1e-5)
 
 
 @pytest.mark.parametrize("name", ["weaver", "automated-loom:row", "automated-loom:knot"])

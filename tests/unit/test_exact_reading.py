@@ -9,7 +9,7 @@ from drawings import FLAT, rendered, sunset
 from PIL import Image
 
 from ilmek.api import carpets
-from ilmek.carpet.chart import make_chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.exact import USUAL, enlargement, few_colours, find_drawing, measured, of_grid
 from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.reading import ReadParams

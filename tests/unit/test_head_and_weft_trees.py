@@ -10,6 +10,7 @@ from cloths import cloth
 from default_machines import loom_report
 from hypothesis import given
 from hypothesis import strategies as st
+from manifold3d import Manifold, Mesh
 from matplotlib.path import Path as Outline
 
 from ilmek.errors import ParameterError
@@ -23,7 +24,7 @@ from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.lever_parts import lever_id
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.moved import moved_mass
-from ilmek.machines.weaver.parts import SIDE_PLATE
+from ilmek.machines.weaver.parts import AXIAL_PLAY, BEARING, LEAST_LIP, SIDE_PLATES
 from ilmek.machines.weaver.return_springs import spring_id
 from ilmek.machines.weaver.tool_parts import OPENER_PLATE, SLEY_BODY
 from ilmek.machines.weaver.transmissions import CAM_SHAFT
@@ -35,8 +36,9 @@ from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, MAGNET, RAPIER_TUBE, 
 from ilmek.machines.weft.tree import DRAGGING
 from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
+from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.seat_faces import prism_of
-from ilmek.part.tree import GROUND, Tree
+from ilmek.part.tree import GROUND, Occurrence, Tree
 from ilmek.plane.solids import bounds, is_closed, volume
 from ilmek.report.scene import Scene
 from ilmek.units import mm
@@ -127,6 +129,49 @@ def test_six_cams_stand_beside_each_other_between_the_side_plates(settings: dict
     assert made.width >= case_width(made.params) - 1e-12
 
 
+def _in_space(own: Occurrence, number: int, frame: Placement, x: float = 0.0, slim: float = 1.0) -> Manifold:
+    """A piece of a body at a frame, moved along the row [m]; slim: share of its size about its axis."""
+    assert own.part.shape is not None
+    mesh = own.part.shape.mesh()
+    points = frame.after(own.positions[number]).points(mesh.points * [slim, slim, 1.0]) + np.array([x, 0.0, 0.0])
+    return Manifold(Mesh(points.astype(np.float32), mesh.triangles.astype(np.uint32)))
+
+
+@pytest.mark.parametrize("settings", [{}, {"side_plate": 10e-3}, {"cam_gap": 3e-3}])
+def test_lips_and_spacers_hold_the_cam_shaft_along_its_axis_with_play(settings: dict[str, Any]) -> None:
+    """By manifold3d: each bearing meets its plate beyond half the play outwards, and what is on the shaft inwards."""
+    tree = head_tree(_head(**settings))
+    case, shaft = tree.bodies[0], tree.body(CAM_SHAFT)
+    (bearing,) = (own for own in case.occurrences if own.part.id == BEARING)
+    plates = [own for own in case.occurrences if own.part.id in SIDE_PLATES]
+    assert len(plates) == len(bearing.positions) == 2
+
+    def common(number: int, x: float) -> tuple[float, float]:
+        """With the plates, and with what is on the shaft [mm³]."""
+        ring = _in_space(bearing, number, IDENTITY, x, slim=0.98)
+        turning = [
+            _in_space(own, at, shaft.positions[0])
+            for own in shaft.occurrences
+            if "spacer" in own.part.id
+            for at in range(len(own.positions))
+        ]
+        walls = [_in_space(own, 0, IDENTITY) for own in plates]
+        of_plates, of_shaft = (sum((ring ^ other).volume() for other in every) * 1e9 for every in (walls, turning))
+        return of_plates, of_shaft
+
+    for number, position in enumerate(bearing.positions):
+        outwards = float(np.sign(position.origin[0]))
+        assert common(number, 0.4 * outwards * AXIAL_PLAY)[0] < 0.01
+        assert common(number, 0.9 * outwards * AXIAL_PLAY)[0] > 5.0
+        assert common(number, -0.1 * outwards * AXIAL_PLAY)[1] > 2.0
+
+
+def test_a_plate_too_thin_for_a_lip_fails() -> None:
+    (lip,) = (check for check in HEAD.report(_head(side_plate=6e-3)).checks if "lip" in check.name)
+    assert not lip.ok
+    assert lip.limit == pytest.approx(LEAST_LIP)
+
+
 def test_the_head_weighs_what_its_solids_and_the_catalogue_say() -> None:
     """Of the made parts the volumes of their meshes in the scene, of the bought ones the rows' masses."""
     made = _head()
@@ -137,7 +182,7 @@ def test_the_head_weighs_what_its_solids_and_the_catalogue_say() -> None:
         else:
             total += number * part.mass
     assert head_mass(made) == pytest.approx(total, rel=1e-4)
-    assert any(part.id == SIDE_PLATE and part.mass > 0.5 for part, _ in head_tree(made).occurrences())
+    assert any(part.id == SIDE_PLATES[0] and part.mass > 0.5 for part, _ in head_tree(made).occurrences())
 
 
 def test_no_cam_moves_more_than_it_is_designed_for() -> None:
@@ -218,7 +263,8 @@ def _loom(weft: str) -> tuple[Any, Scene]:
     return made, scene(made, loom_report(made))
 
 
-@pytest.mark.parametrize("weft", ["shuttle", "rapier"])
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("weft", ["rapier", "shuttle"])
 def test_every_part_of_heads_and_weft_in_space_is_a_line_with_its_checks(weft: str) -> None:
     made, found = _loom(weft)
     lines = {line.part: line for line in parts_of_loom(made).parts if line.part}

@@ -95,6 +95,6 @@ def test_a_head_over_its_last_knot_and_its_step_is_beside_the_motors_of_the_retr
 
     last = made.task.cloth.width / 2 - made.knot_pitch / 2 + made.knot_pitch
     assert min(extent("automated-loom/retreat", RETREAT_MOTOR)) >= last + max(
-        extent("weaver/head", "weaver/side-plate")
+        extent("weaver/head", "weaver/left-side-plate")
     )
     assert knots == pytest.approx(1 / made.knot_pitch * dm)

@@ -12,7 +12,7 @@ from default_machines import default_page
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.cli import main
 from ilmek.errors import OutputError
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.figures import time_against_pitch, time_of_one_knotter
 from ilmek.machines.catalogue import find_machine
@@ -97,7 +97,7 @@ def test_a_command_draws_figures_only_for_what_shows_them(tmp_path: Path, monkey
     assert drawn.exit_code not in (0, 3)
 
 
-@pytest.mark.parametrize("name", SUMMARIES)
+@pytest.mark.parametrize("name", ENTRIES)
 @pytest.mark.one_in(3)
 def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
     page, left_out = default_page(name)

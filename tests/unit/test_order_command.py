@@ -1,7 +1,8 @@
-"""`ilmek order` and `ilmek verify`: prices by hand, papers read back, labels, records with a changed byte, bad input."""
+"""`ilmek order`, `ilmek verify`: prices by hand, papers read back, labels, records with a changed byte, bad input."""
 
 import hashlib
 import json
+import math
 import re
 import shutil
 from dataclasses import replace
@@ -17,16 +18,18 @@ from cryptography.exceptions import InvalidSignature
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 from PIL import Image
 
+import ilmek
 from ilmek.api.carpets import read_chart
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
 from ilmek.carpet.price_rules import WageRules
 from ilmek.carpet.strike_off import part_of, strike_off_window
 from ilmek.cli import main
-from ilmek.errors import CarpetError
+from ilmek.errors import CarpetError, LoomError
 from ilmek.io.call_state import CallState, state_file, write_state
 from ilmek.io.carpet_record import read_record, record_faults
 from ilmek.io.yarn_file import default_yarns
+from ilmek.jobs.ordering.progress import woven_rows
 from ilmek.viz.room import HIGH, WIDE, draw_room
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -205,6 +208,17 @@ def test_a_record_keeps_the_days_of_its_rows(tmp_path: Path, monkeypatch: pytest
     assert "30 of 40 rows" in text_of(out / "medallion-madder" / "wages.pdf")
 
 
+def test_rows_are_read_from_the_journal_of_a_run(tmp_path: Path) -> None:
+    ran = run("run", EXAMPLES / "small_programme.txt", "--journal", tmp_path / "run", "--speed", "max")
+    assert ran.exit_code == 0, ran.output
+    chart = Chart(np.zeros((6, 4)), default_yarns()[:1], "4x6cm", "10x10/dm", "symmetric")
+    found = woven_rows(chart, tmp_path / "run")
+    assert (found.rows, found.source) == (6, "journal")
+    other = Chart(np.zeros((7, 4)), default_yarns()[:1], "4x7cm", "10x10/dm", "symmetric")
+    with pytest.raises(LoomError, match="weaves 6 rows, the carpet has 7"):
+        woven_rows(other, tmp_path / "run")
+
+
 def test_payments_are_the_wage() -> None:
     rules = WageRules(9.0, 10_000, advance=0.25, rows=7)
     payments = rules.payments([31] * 40, 5)
@@ -240,7 +254,7 @@ def test_a_colour_that_the_shelf_lacks_is_named_with_the_nearest() -> None:
 
 def test_a_strike_off_has_as_many_colours_as_any_window(worked: tuple[dict[str, Any], Path]) -> None:
     chart = read_chart(worked[1] / "medallion-madder" / "chart.png")
-    window = strike_off_window(chart, 0.08)
+    window = strike_off_window(chart, 0.08, 0.08)
     sample = part_of(chart, window)
     most = max(len(np.unique(chart.knots[top : top + 8, left : left + 8])) for top in range(33) for left in range(23))
     assert len(np.unique(sample.knots)) == most
@@ -285,6 +299,37 @@ BAD = {
     "language": (('customer = "N-204"', 'workshop_language = "xx"'), "'xx' is no language"),
     "twice": (('name = "indigo"', 'name = "madder"'), "two orders are named 'Medallion, madder'"),
 }
+
+
+def test_the_shelf_of_natural_dyes_has_its_card_and_the_lots_in_stock(tmp_path: Path) -> None:
+    text = ORDER.replace('yarns = "wool"', 'yarns = "natural"').replace("indigo navy", "woad dark blue")
+    order = written(tmp_path, text.replace('"light blue"', '"woad light blue"'))
+    shelf = default_yarns("natural")
+    stock = '\n[[yarn]]\nname = "madder red"\nstock = "1kg"\nlot = "K-114"\n'
+    frames = (Path(ilmek.__file__).parent / "data" / "looms.toml").read_text()
+    (tmp_path / "looms.toml").write_text(frames.replace("weavers = 3", "weavers = 4\nknots_a_day = 4000") + stock)
+    done = run("order", order, "--looms", tmp_path / "looms.toml", "--out", tmp_path / "out", "--json", "-")
+    assert done.exit_code == 0, done.output
+    card = text_of(tmp_path / "out" / "offer" / "colour-card.pdf")
+    for number, yarn in enumerate(shelf, 1):
+        assert re.search(rf"\b{number} {yarn.name} {yarn.hex}", card), yarn.name
+    assert "K-114" in card
+    record = json.loads((tmp_path / "out" / "medallion-madder" / "record-1.json").read_text())["record"]
+    lots = {yarn["name"]: yarn["lots"][0]["lot"] for yarn in record["yarn"]}
+    assert lots["madder red"] == "K-114"
+    assert {lot for name, lot in lots.items() if name != "madder red"} == {1}
+
+
+def test_weavers_at_a_frame_tie_together(tmp_path: Path) -> None:
+    order = written(tmp_path)
+    frame = "weavers = 4\nknots_a_day = 4000\nwidth = '25cm'"
+    frames = (Path(ilmek.__file__).parent / "data" / "looms.toml").read_text()
+    (tmp_path / "looms.toml").write_text(frames.replace('weavers = 3\nwidth = "3.2m"', frame))
+    done = run("plan", order, "--looms", tmp_path / "looms.toml", "--time-limit", "1s", "--json", "-")
+    carpets = [carpet for entry in json.loads(done.stdout)["orders"] for carpet in entry["carpets"]]
+    assert {carpet["loom"] for carpet in carpets} == {"2"}  # the other one is too narrow
+    hours = 30 * 40 / (2 * 8000 / 8) / (1 - 0.03)
+    assert all(carpet["weaving_time"] == math.ceil(60 * hours) * 60 for carpet in carpets)
 
 
 @pytest.mark.parametrize("case", BAD)

@@ -18,7 +18,7 @@ from ilmek.elements.bearings import equivalent_load, find_bearing
 from ilmek.elements.screws import trapezoidal
 from ilmek.errors import ParameterError
 from ilmek.io.dxf import write_dxf
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.hammer import HammerParams
 from ilmek.machines.knotting_dyad import KnottingDyadParams
@@ -200,7 +200,7 @@ def test_a_bored_plate_without_holes_has_a_cross_at_its_centre(tmp_path: Path) -
         assert (middle.x, middle.y) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-@pytest.mark.parametrize("machine", SUMMARIES)
+@pytest.mark.parametrize("machine", ENTRIES)
 def test_a_bound_is_within_or_without_as_it_is_declared(machine: str) -> None:
     for parameter in declared(find_machine(machine).params):
         whole = parameter.kind is int

@@ -160,7 +160,8 @@ def test_a_four_bar_is_judged_as_by_the_law_of_cosines() -> None:
 
 def test_a_slider_crank_is_judged() -> None:
     judged = ilmek.judged(ilmek.slider_crank(0.1, 0.3, offset=0.05))
-    assert judged.grashof is None
+    with pytest.raises(ilmek.IlmekError, match="no Grashof class"):
+        _ = judged.grashof
     far, near = np.sqrt(0.4**2 - 0.05**2), np.sqrt(0.2**2 - 0.05**2)
     values = sorted(limit.value for limit in judged.limits("line"))
     assert values == pytest.approx([near, far], abs=1e-9)

@@ -22,7 +22,7 @@ from ilmek.jobs.studio.machine.tasks import (
     reading,
 )
 from ilmek.jobs.studio.machine.view import in_space, view
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import reachable
 
@@ -30,10 +30,11 @@ HERE = Context()
 
 
 def test_catalogue_lists_every_machine_with_its_summary() -> None:
-    assert {one.name: one.summary for one in list_of_machines(Nothing(), HERE).machines} == SUMMARIES
+    summaries = {name: entry.summary for name, entry in ENTRIES.items()}
+    assert {one.name: one.summary for one in list_of_machines(Nothing(), HERE).machines} == summaries
 
 
-@pytest.mark.parametrize("name", SUMMARIES)
+@pytest.mark.parametrize("name", ENTRIES)
 def test_form_has_every_declared_parameter_and_each_default_reads_as_itself(name: str) -> None:
     fields = form(MachineName(name), HERE).fields
     assert [one.name for one in fields] == list(reachable(MACHINES[name].params))
@@ -85,7 +86,7 @@ def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: 
 
 
 def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_then_those_in_space() -> None:
-    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m"}
+    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m", "beat": "comb"}
     seen = view(DesignRequest("automated-loom", settings), HERE)
     assert not seen.holds
     assert seen.failed == len(seen.reasons)

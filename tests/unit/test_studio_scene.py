@@ -24,6 +24,7 @@ from ilmek.plane.contours import area
 from ilmek.plane.solids import bounds
 from ilmek.report import Contour
 from ilmek.units import mm, turn
+from ilmek.viz.embedded import compressed
 from ilmek.viz.loom_page import LoomPage, loom_page
 from ilmek.viz.scene_data import needed_samples
 
@@ -125,11 +126,15 @@ def test_the_loom_as_glb(project: Path) -> None:
     assert answer.body[:4] == b"glTF"
 
 
+def compressed_name(name: str) -> str:
+    return compressed(name.encode())
+
+
 def test_the_page_of_a_loom_has_its_scene_and_the_client(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     loom = project_loom(project, "machines/loom.toml")
-    monkeypatch.setattr(loom_space, "CLIENT", "web/client/none.js")
+    monkeypatch.setattr(loom_space, "client", lambda _: "")
     assert loom_in_space(loom.design, loom.report, None) is None
-    monkeypatch.setattr(loom_space, "CLIENT", "viz/templates/space.js")
+    monkeypatch.setattr(loom_space, "client", compressed_name)
     found = loom_in_space(loom.design, loom.report, None)
     assert found is not None
     data = gzip.decompress(base64.b64decode(found.data))

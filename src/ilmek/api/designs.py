@@ -11,9 +11,10 @@ from ilmek.jobs.design import design_machine
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.jobs.reproduce import ReproductionResult, reproduce_papers
-from ilmek.params import Setting
+from ilmek.params import Parameter, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
+from ilmek.report.framed import RecordTable
 
 Settings = Mapping[str, Setting]
 """Values by name: texts with units, or numbers in SI."""
@@ -29,6 +30,19 @@ def list_machines() -> dict[str, str]:
     True
     """
     return machine_list()
+
+
+def parameters(name: str) -> RecordTable[Parameter]:
+    """The parameters of a machine of the catalogue, one a row: name, unit, default in SI, bounds, meaning.
+
+    `parameters("beat-up").frame()` is a DataFrame. Raises ParameterError for an unknown machine, with the nearest.
+
+    >>> [(entry.name, entry.unit) for entry in parameters("beat-up") if entry.name == "swing"]
+    [('swing', 'deg')]
+    """
+    form = machine_form(Arguments("a machine").text("name", name))
+    columns = ("name", "unit", "default", "at_least", "above", "below", "at_most", "choices", "doc")
+    return RecordTable(form.parameters, columns)
 
 
 def design(

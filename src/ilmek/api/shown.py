@@ -24,6 +24,7 @@ from ilmek.io.json_file import json_text
 from ilmek.io.output.outputs import Outputs
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.weave import WeaveResult
+from ilmek.linkage.fourbar import link_lengths
 from ilmek.linkage.initial_pose import inputs_in_pose
 from ilmek.linkage.judged import JudgedMechanism
 from ilmek.linkage.model import Mechanism, Rotation
@@ -132,7 +133,7 @@ def _(judged: JudgedMechanism) -> Facts:
     unit = "deg" if judged.moved.turns else "mm"
     ranges = "; ".join(" to ".join(format_quantity(end, unit) for end in ends) for ends in judged.ranges)
     shown = {"degrees of freedom": str(judged.degrees_of_freedom)}
-    if judged.grashof is not None:
+    if link_lengths(judged.mechanism) is not None:
         shown["Grashof"] = judged.grashof.kind
     shown["circuits"] = str(len(judged.circuits))
     shown[judged.moved.name] = "a full turn" if judged.turns else ranges

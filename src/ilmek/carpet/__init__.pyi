@@ -1,11 +1,15 @@
 from ilmek.carpet.bill import YarnBill as YarnBill
 from ilmek.carpet.bill import yarn_bill as yarn_bill
+from ilmek.carpet.calling import CallStep as CallStep
 from ilmek.carpet.chart import Chart as Chart
-from ilmek.carpet.chart import make_chart as make_chart
+from ilmek.carpet.chart_making import make_chart as make_chart
 from ilmek.carpet.colour import srgb_to_lab as srgb_to_lab
 from ilmek.carpet.colour_difference import ciede2000 as ciede2000
+from ilmek.carpet.overlay import TiedKnots as TiedKnots
 from ilmek.carpet.quality import Quality as Quality
 from ilmek.carpet.quality import parse_quality as parse_quality
 from ilmek.carpet.sizes import CarpetSize as CarpetSize
 from ilmek.carpet.sizes import parse_size as parse_size
+from ilmek.carpet.statistics import ChartStatistics as ChartStatistics
+from ilmek.carpet.tally import Tally as Tally
 from ilmek.carpet.yarn import Yarn as Yarn

@@ -8,7 +8,8 @@ included; a reserve is bought beyond it.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.creel import names_to_buy
@@ -21,6 +22,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import OVERCAST, YarnPlanParams, parse_hank, write_count
 from ilmek.elements.knot_kinds import FORMS
 from ilmek.errors import CarpetError, did_you_mean
+from ilmek.report.framed import RecordTable
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,10 @@ class YarnBill:
     def needs(self) -> tuple[YarnNeed, ...]:
         """All lines, pile first."""
         return self.pile + self.ground
+
+    def frame(self) -> Any:
+        """The lines as a DataFrame, SI. Raises ParameterError without pandas and polars."""
+        return RecordTable(self.needs, tuple(field.name for field in fields(YarnNeed))).frame()
 
     @property
     def knots(self) -> int:

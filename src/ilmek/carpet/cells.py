@@ -72,13 +72,13 @@ PILE, PLAIN_GROUND, CUT_AWAY = CellKind(KNOT), CellKind(PLAIN, PLAIN), CellKind(
 
 
 @record
-class Cells:
+class CellMap:
     """The map of a chart's cells; what is given is checked, and converted where nothing is lost.
 
     index  in `kinds` of each cell, (rows, columns); row 0 is the top, as in `Chart.knots`
     Raises CarpetError for an index of no kind, two kinds of one name, and for a map without a knot.
 
-    >>> Cells([[1, 0], [0, 0]], (PILE, CUT_AWAY)).number(OUTSIDE)
+    >>> CellMap([[1, 0], [0, 0]], (PILE, CUT_AWAY)).number(OUTSIDE)
     1
     """
 
@@ -122,12 +122,12 @@ class Cells:
             return knots
         return np.where(self.tied, knots, np.uint8(NO_KNOT))
 
-    def woven(self, where: BoolArray, kind: CellKind) -> "Cells":
+    def woven(self, where: BoolArray, kind: CellKind) -> "CellMap":
         """The map with another kind in some cells, (rows, columns)."""
         kinds = self.kinds if kind in self.kinds else (*self.kinds, kind)
-        return Cells(np.where(where, np.uint8(kinds.index(kind)), self.index), kinds)
+        return CellMap(np.where(where, np.uint8(kinds.index(kind)), self.index), kinds)
 
-    def merged(self) -> "Cells | None":
+    def merged(self) -> "CellMap | None":
         """The map with the kinds that a cell has, in their order; None where all cells are knots of the usual pile."""
         used = [kind for kind, count in zip(self.kinds, self.counts, strict=True) if count]
         if used == [PILE]:
@@ -136,12 +136,12 @@ class Cells:
         return replace(self, index=recoded(self.index, moved), kinds=tuple(used))
 
 
-def all_knots(rows: int, columns: int) -> Cells:
+def all_knots(rows: int, columns: int) -> CellMap:
     """The map of a carpet whose cells are all knots of the usual pile."""
-    return Cells(np.zeros((rows, columns), dtype=np.uint8), (PILE,))
+    return CellMap(np.zeros((rows, columns), dtype=np.uint8), (PILE,))
 
 
-def require_knots(knots: Indices, cells: Cells | None, yarns: Sequence[object]) -> Indices:
+def require_knots(knots: Indices, cells: CellMap | None, yarns: Sequence[object]) -> Indices:
     """The knots of a chart as uint8, NO_KNOT where its cells have none. Raises CarpetError for an index of no yarn."""
     meaning = f"the index in a list of {counted(len(yarns), 'yarn')}"
     if cells is None:

@@ -30,24 +30,28 @@ class SampleWindow(NamedTuple):
     columns: int
 
 
-def strike_off_window(chart: Chart, side: float = SAMPLE) -> SampleWindow:
-    """Where the colours of a chart meet, as a square of a side [m], cut off at the chart's edges.
+def strike_off_window(chart: Chart, width: float = SAMPLE, length: float = SAMPLE) -> SampleWindow:
+    """Where the colours of a chart meet, as a window of a width and a length [m], cut off at the chart's edges.
 
     >>> from ilmek import read_yarns
     >>> knots = [[0] * 12 for _ in range(12)]
     >>> knots[9][10] = 1
-    >>> strike_off_window(Chart(knots, read_yarns()[:2], "12x12cm", "10x10/dm", "symmetric"), 0.04)
+    >>> strike_off_window(Chart(knots, read_yarns()[:2], "12x12cm", "10x10/dm", "symmetric"), 0.04, 0.04)
     SampleWindow(top=7, left=8, rows=4, columns=4)
     """
     rows, columns = (
-        max(1, min(whole, round(side * density)))
-        for whole, density in ((chart.rows, chart.quality.along), (chart.columns, chart.quality.across))
+        max(2, min(whole, round(side * density)))
+        for side, whole, density in (
+            (length, chart.rows, chart.quality.along),
+            (width, chart.columns, chart.quality.across),
+        )
     )
     tops, lefts = _starts(chart.rows - rows), _starts(chart.columns - columns)
     present = sum((_sums(chart.knots == yarn, tops, lefts, rows, columns) > 0 for yarn in chart.used), start=0)
     edges = np.zeros(chart.knots.shape, dtype=np.uint8)
-    edges[:, 1:] += chart.knots[:, 1:] != chart.knots[:, :-1]
-    edges[1:] += chart.knots[1:] != chart.knots[:-1]
+    tied = chart.knots < len(chart.yarns)
+    edges[:, 1:] += (chart.knots[:, 1:] != chart.knots[:, :-1]) & tied[:, 1:] & tied[:, :-1]
+    edges[1:] += (chart.knots[1:] != chart.knots[:-1]) & tied[1:] & tied[:-1]
     score = np.asarray(present, dtype=np.int64) * (2 * rows * columns + 1)
     score += _sums(edges, tops, lefts, rows, columns)
     top, left = np.unravel_index(int(score.argmax()), score.shape)
@@ -73,6 +77,10 @@ def part_of(chart: Chart, window: SampleWindow, name: str = "") -> Chart:
     """The part of a chart in a window, without half knots and jufti knots; name: of its size."""
     top, left, rows, columns = window
     size = CarpetSize(columns / chart.quality.across, rows / chart.quality.along, name)
-    knots = np.ascontiguousarray(chart.knots[top : top + rows, left : left + columns])
+    inside = np.s_[top : top + rows, left : left + columns]
+    knots = np.ascontiguousarray(chart.knots[inside])
+    cells = None if chart.cells is None else replace(chart.cells, index=chart.cells.index[inside]).merged()
     reading = replace(chart.reading, matches=(), lost=(), differences=(), proposed=(), edits=(), edges_kept=None)
-    return replace(chart, knots=knots, size=size, overlay=no_overlay(), reading=replace(reading, detail_kept=None))
+    return replace(
+        chart, knots=knots, size=size, overlay=no_overlay(), cells=cells, reading=replace(reading, detail_kept=None)
+    )

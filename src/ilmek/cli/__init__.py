@@ -41,6 +41,7 @@ main = LazyGroup(
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
         "studio": ("ilmek.cli.studio", "Open a project in the browser: carpet, machines, linkages and loom."),
+        "mcp": ("ilmek.cli.mcp", "Serve tools to an agent: machines, mechanisms, synthesis, knots, programmes."),
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
         "order": ("ilmek.cli.order", "Work a customer's order: quotation, approval, workshop folders, records."),
         "verify": ("ilmek.cli.verify", "Verify the record of a carpet, or the code of its label."),

@@ -14,7 +14,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
 from ilmek.errors import MechanismError
 from ilmek.linkage.followed import followed_angle
-from ilmek.linkage.joints import BodyPoint, set_points
+from ilmek.linkage.joints import NamedPoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot
 
@@ -37,8 +37,8 @@ class Spring:
     2000.0
     """
 
-    first: BodyPoint
-    second: BodyPoint
+    first: NamedPoint
+    second: NamedPoint
     stiffness: float
     length: float
     damping: float = 0.0

@@ -101,6 +101,16 @@ _BALL = """
 6320 100 215 47 173 141 7.00 3200
 """
 
+_THIN = """
+61900 10 22 6 2.70 1.27 0.010 34000
+61901 12 24 6 2.91 1.46 0.011 32000
+61902 15 28 7 4.36 2.24 0.016 28000
+61903 17 30 7 4.62 2.55 0.018 26000
+61904 20 37 9 6.37 3.65 0.038 20000
+61905 25 42 9 7.02 4.30 0.045 18000
+61906 30 47 9 7.28 4.55 0.051 16000
+"""
+
 _ROLLER = """
 NU204 20 47 14 25.7 22.6 0.110 12000
 NU205 25 52 15 29.3 27.7 0.135 10000
@@ -158,3 +168,6 @@ ROLLING_BEARINGS: dict[str, RollingBearing] = {
     for bearing in (*_rows(_BALL, DEEP_GROOVE), *_rows(_ROLLER, CYLINDRICAL), *_insert("UC"), *_insert("UCF"))
 }
 """By designation: 60, 62, 63 deep groove, NU 2 cylindrical roller, UC 2 insert and UCF 2 flanged insert bearings."""
+
+THIN_BEARINGS: dict[str, RollingBearing] = {row.name: row for row in _rows(_THIN, DEEP_GROOVE)}
+"""By designation: deep groove bearings 619, for seats of little depth; no choice by load alone takes them."""

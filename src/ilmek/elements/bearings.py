@@ -19,7 +19,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.elements.bearing_table import CYLINDRICAL, DEEP_GROOVE, INSERT, ROLLING_BEARINGS, RollingBearing
+from ilmek.elements.bearing_table import (
+    CYLINDRICAL,
+    DEEP_GROOVE,
+    INSERT,
+    ROLLING_BEARINGS,
+    THIN_BEARINGS,
+    RollingBearing,
+)
 from ilmek.elements.catalogue import pick
 from ilmek.errors import ParameterError
 
@@ -84,7 +91,7 @@ def find_bearing(name: str) -> RollingBearing:
     >>> find_bearing("ucf207").name, find_bearing("nu 205").kind
     ('UCF 207', 'cylindrical roller')
     """
-    return pick(ROLLING_BEARINGS, name, "bearing")
+    return pick(ROLLING_BEARINGS | THIN_BEARINGS, name, "bearing")
 
 
 def life(dynamic: float, load: float, kind: str, reliability: float = 0.9) -> float:

@@ -8,7 +8,7 @@ import json
 from dataclasses import asdict, fields, replace
 
 from ilmek.arrays import Indices
-from ilmek.carpet.cells import Cells
+from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES
@@ -67,7 +67,7 @@ def read_facts(text: str) -> ChartFacts:
     )
 
 
-def chart_of_facts(knots: Indices, facts: ChartFacts, file: str, cells: Cells | None = None) -> Chart:
+def chart_of_facts(knots: Indices, facts: ChartFacts, file: str, cells: CellMap | None = None) -> Chart:
     """The chart of a file; `file`: what it is, for the user."""
     reading = ChartReading("exact", f"{file}: knots and yarns are its own", 0.0, 0.0, 0, 0)
     return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading, creel=facts.creel, cells=cells)

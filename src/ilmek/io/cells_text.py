@@ -11,7 +11,7 @@ from dataclasses import asdict, fields
 import numpy as np
 
 from ilmek.arrays import Indices
-from ilmek.carpet.cells import TALLEST, CellKind, Cells
+from ilmek.carpet.cells import TALLEST, CellKind, CellMap
 from ilmek.carpet.codes import CODES
 from ilmek.errors import LoomError, shortened
 from ilmek.io.meta_entry import MetaEntry
@@ -20,7 +20,7 @@ _LONGEST = 150_000_000
 """Largest number of characters of a map."""
 
 
-def cells_text(cells: Cells | None) -> str:
+def cells_text(cells: CellMap | None) -> str:
     """The map as text; "" for a chart without one."""
     if cells is None:
         return ""
@@ -28,7 +28,7 @@ def cells_text(cells: Cells | None) -> str:
     return json.dumps({"kinds": [asdict(kind) for kind in cells.kinds], "index": index}, ensure_ascii=False)
 
 
-def read_cells(text: str, knots: Indices) -> Cells | None:
+def read_cells(text: str, knots: Indices) -> CellMap | None:
     """The map of a text that `cells_text` wrote, for these knots. Raises an IlmekError."""
     if not text:
         return None
@@ -45,7 +45,7 @@ def read_cells(text: str, knots: Indices) -> Cells | None:
     if len(raw) != knots.size or not reader.eof:
         raise LoomError("its map of cells is damaged", allowed=f"{knots.size:,} cells")
     kinds = tuple(_kind(entry) for entry in given["kinds"].rows(1, CODES - 1))
-    return Cells(np.frombuffer(raw, np.uint8).reshape(knots.shape), kinds)
+    return CellMap(np.frombuffer(raw, np.uint8).reshape(knots.shape), kinds)
 
 
 def _kind(entry: MetaEntry) -> CellKind:

@@ -40,6 +40,7 @@
     stock = "8kg"
     price = "24 EUR/kg"
     lead = "10d"
+    lot = "K-114"                               # dye lot of what is in stock
 
 Files are named relative to the folder of the looms and lie in it.
 """
@@ -132,12 +133,13 @@ class LoomEntry:
 
 @dataclass(frozen=True, slots=True)
 class StockEntry:
-    """A yarn: mass in stock [kg], price [currency/kg], None: as in the yarn list, and lead time of a purchase [s]."""
+    """A yarn: mass in stock [kg], price [currency/kg], None: as in the yarn list, lead time of a purchase [s], lot."""
 
     name: str
     stock: float
     price: float | None
     lead: float
+    lot: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -295,10 +297,11 @@ def _chosen(row: FactoryEntry, shifts: tuple[ShiftEntry, ...]) -> tuple[str, ...
 
 
 def _yarn(row: FactoryEntry, currency: str) -> StockEntry:
-    row.keys("name", "stock", "price", "lead", needs=("name",))
+    row.keys("name", "stock", "price", "lead", "lot", needs=("name",))
     return StockEntry(
         row.label("name"),
         row.measured("stock", "kg", 0.0, most=1e6),
         row.money("price", currency, "kg"),
         row.measured("lead", "d", 0.0, most=LONGEST_LEAD),
+        row.label("lot") if row.has("lot") else "",
     )

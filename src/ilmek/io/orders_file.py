@@ -36,9 +36,9 @@ from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, read_wage
 from ilmek.io.schema import SourceText, shown
-from ilmek.io.yarn_file import WOOL
+from ilmek.io.yarn_file import SHIPPED
 from ilmek.params import Parameter, Setting
-from ilmek.sentences import DEFAULT, LANGUAGES, WEAVERS
+from ilmek.sentences import DEFAULT, WEAVERS
 
 MOST_ORDERS = 500
 """Largest number of orders of a file, and of carpets in all of them."""
@@ -137,15 +137,15 @@ def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter])
         read.file(root, "looms"),
         read_price(root, currency),
         read_wage(root, currency),
-        _language(root, "language", LANGUAGES),
-        _language(root, "workshop_language", WEAVERS),
+        _language(root, "language"),
+        _language(root, "workshop_language"),
     )
 
 
-def _language(root: FactoryEntry, key: str, known: Mapping[str, object]) -> str:
+def _language(root: FactoryEntry, key: str) -> str:
     text = root.text(key, DEFAULT)
-    if text not in known:
-        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(known)), key)
+    if text not in WEAVERS:
+        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(WEAVERS)), key)
     return text
 
 
@@ -189,7 +189,7 @@ class _OrderReader:
         return tuple(sizes)
 
     def _yarns(self, row: FactoryEntry) -> Path | None:
-        return Path(WOOL) if row.data.get("yarns") == WOOL else self.file(row, "yarns")
+        return Path(row.text("yarns")) if row.data.get("yarns") in SHIPPED else self.file(row, "yarns")
 
     def order(self, row: FactoryEntry) -> FactoryOrder:
         """The order of a table, without sizes and colourways."""

@@ -56,7 +56,7 @@ from ilmek.io.edits_entry import read_edits
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
-from ilmek.io.yarn_file import WOOL, default_yarns, read_yarns, yarns_from_records
+from ilmek.io.yarn_file import SHIPPED, default_yarns, read_yarns, yarns_from_records
 from ilmek.params import Parameter, Setting
 from ilmek.sentences import Sentence, location
 from ilmek.units import parse_quantity
@@ -183,8 +183,8 @@ class _RecipeReader:
             records = [row.data for row in self.root.rows("yarn")]
             with self._at(self.root, "yarn"):
                 return yarns_from_records(records), None
-        if self.root.data.get("yarns") == WOOL:
-            return default_yarns(), None
+        if (name := self.root.data.get("yarns")) in SHIPPED:
+            return default_yarns(str(name)), None
         file = self._file(self.root, "yarns")
         if file is None:
             return None, None

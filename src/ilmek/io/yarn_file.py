@@ -55,13 +55,14 @@ _WHOLE = ("ply", "number")
 _MISSING = "check the path, or give --yarns wool: the wools that come with ilmek"
 
 WOOL = "wool"
-"""In the place of a file: the wools that come with ilmek."""
+SHIPPED = {WOOL: "wool16.toml", "natural": "natural.toml"}
+"""In the place of a file: lists that come with ilmek, the wools first."""
 
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
-    """The yarns of a TOML, CSV or GPL file, or of WOOL. Raises YarnError, naming the file and the line or yarn."""
-    if str(path) == WOOL and not path.exists():
-        return default_yarns()
+    """The yarns of a TOML, CSV or GPL file, or of SHIPPED. Raises YarnError, naming the file and the line or yarn."""
+    if str(path) in SHIPPED and not path.exists():
+        return default_yarns(str(path))
     reader = _READERS.get(path.suffix.lower())
     with restated(YarnError, f"yarn list {path}: ", of=YarnError):
         if reader is None and path.is_file():
@@ -71,9 +72,9 @@ def read_yarns(path: Path) -> tuple[Yarn, ...]:
 
 
 @cache
-def default_yarns() -> tuple[Yarn, ...]:
-    """The sixteen wool yarns that come with ilmek."""
-    text = resources.files("ilmek.data").joinpath("wool16.toml").read_text(encoding="utf-8")
+def default_yarns(name: str = WOOL) -> tuple[Yarn, ...]:
+    """The yarns of a list that comes with ilmek: sixteen wools, or natural dyes."""
+    text = resources.files("ilmek.data").joinpath(SHIPPED[name]).read_text(encoding="utf-8")
     return _toml_yarns(text)
 
 

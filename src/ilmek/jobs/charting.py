@@ -6,7 +6,8 @@ from functools import partial
 from pathlib import Path
 
 from ilmek.arrays import Indices, Rgb
-from ilmek.carpet.chart import Chart, chart_of_design, used_first
+from ilmek.carpet.chart import Chart, used_first
+from ilmek.carpet.chart_making import chart_of_design
 from ilmek.carpet.creel import in_creel_order
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality

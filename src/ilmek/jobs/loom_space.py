@@ -1,9 +1,5 @@
 """A loom in space as files: GLB, and the data of the picture in loom.html with the client that draws it."""
 
-import base64
-import gzip
-from importlib.resources import files
-
 import numpy as np
 
 from ilmek.carpet.chart import Chart
@@ -16,11 +12,9 @@ from ilmek.machines.hand_loom import HandLoom
 from ilmek.machines.hand_loom.scene import scene as hand_scene
 from ilmek.report import Json, Report
 from ilmek.report.scene import Scene
+from ilmek.viz.embedded import client, compressed
 from ilmek.viz.loom_page import LoomInSpace
 from ilmek.viz.scene_data import scene_data
-
-CLIENT = "web/client/loom-page.js"
-"""The client of the picture, in the package."""
 
 MOST_KNOTS = 1_000_000
 """Knots of a chart in a page; of a larger one every second, third, ... row and column is shown."""
@@ -67,14 +61,7 @@ def loom_scene(loom: LoomDesign | HandLoom, report: Report) -> Scene:
 
 def loom_in_space(loom: LoomDesign | HandLoom, report: Report, chart: Chart | None) -> LoomInSpace | None:
     """The picture of a loom for its page; None where the package has no client, as in its sources before a build."""
-    client = files("ilmek").joinpath(CLIENT)
-    if not client.is_file():
+    script = client("loom")
+    if not script:
         return None
-    data = scene_answer(loom_scene(loom, report), chart, most=MOST_KNOTS)
-    return LoomInSpace(_compressed(client.read_bytes()), _compressed(data.body))
-
-
-def _compressed(content: bytes) -> str:
-    """Compressed, as base64; the same content gives the same text."""
-    # A higher level takes seven times as long, and makes it 3 % smaller.
-    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode("ascii")
+    return LoomInSpace(script, compressed(scene_answer(loom_scene(loom, report), chart, most=MOST_KNOTS).body))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ilmek.machines import SUMMARIES
+from ilmek.machines import ENTRIES
 from ilmek.records import JsonObject
 from ilmek.units import si_unit
 
@@ -43,7 +43,7 @@ class MachineForm:
 
 def machine_list() -> dict[str, str]:
     """The summary of each machine by its name. No machine is imported."""
-    return dict(SUMMARIES)
+    return {name: entry.summary for name, entry in ENTRIES.items()}
 
 
 def machine_form(name: str) -> MachineForm:

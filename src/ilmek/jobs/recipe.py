@@ -6,7 +6,8 @@ from functools import cache, partial
 from pathlib import Path
 
 from ilmek.arrays import Pixels
-from ilmek.carpet.chart import Chart, chart_of_design, used_first
+from ilmek.carpet.chart import Chart, used_first
+from ilmek.carpet.chart_making import chart_of_design
 from ilmek.carpet.exact import of_grid
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS

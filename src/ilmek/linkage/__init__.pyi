@@ -1,8 +1,11 @@
 from ilmek.linkage.batch import solve_batch as solve_batch
+from ilmek.linkage.circuits import Circuit as Circuit
+from ilmek.linkage.coupler_curve import CouplerCurve as CouplerCurve
 from ilmek.linkage.extremes import dwells as dwells
 from ilmek.linkage.fourbar import four_bar as four_bar
 from ilmek.linkage.fourbar import slider_crank as slider_crank
 from ilmek.linkage.instant_centres import centrodes as centrodes
+from ilmek.linkage.judged import JudgedMechanism as JudgedMechanism
 from ilmek.linkage.model import Body as Body
 from ilmek.linkage.model import Coupling as Coupling
 from ilmek.linkage.model import Displacement as Displacement
@@ -11,7 +14,10 @@ from ilmek.linkage.model import Pin as Pin
 from ilmek.linkage.model import Rotation as Rotation
 from ilmek.linkage.model import Slide as Slide
 from ilmek.linkage.model import degrees_of_freedom as degrees_of_freedom
+from ilmek.linkage.motion import AttachedPoint as AttachedPoint
 from ilmek.linkage.motion import Motion as Motion
+from ilmek.linkage.motion import MovedPoint as MovedPoint
+from ilmek.linkage.quality import Grashof as Grashof
 from ilmek.linkage.quality import dead_centres as dead_centres
 from ilmek.linkage.quality import grashof as grashof
 from ilmek.linkage.quality import input_range as input_range

@@ -6,7 +6,7 @@ from typing import Protocol
 from ilmek.arguments import Arguments
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
-from ilmek.linkage.joints import GROUND, BodyPoint, about, set_points, set_texts
+from ilmek.linkage.joints import GROUND, NamedPoint, about, set_points, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.units import deg
 
@@ -93,8 +93,8 @@ class Coupling:
 
     name: str
     kind: str
-    first: BodyPoint
-    second: BodyPoint
+    first: NamedPoint
+    second: NamedPoint
     ratio: float
     first_at: float
     second_at: float

@@ -12,10 +12,10 @@ from ilmek.records import brief
 GROUND = "ground"
 """The fixed body; its frame is the world."""
 
-BodyPoint: TypeAlias = str | tuple[str, str]
+NamedPoint: TypeAlias = str | tuple[str, str]
 """A point of a body: "body.point", or (body, point)."""
 
-FreePoint: TypeAlias = BodyPoint | tuple[str, complex]
+FreePoint: TypeAlias = NamedPoint | tuple[str, complex]
 """A point of a body, or (body, position in its frame [m])."""
 
 

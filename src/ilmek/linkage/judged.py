@@ -81,10 +81,12 @@ class JudgedMechanism(Shown):
         return degrees_of_freedom(self.mechanism)
 
     @cached_property
-    def grashof(self) -> Grashof | None:
-        """Grashof's class of a four-bar; None of any other mechanism."""
+    def grashof(self) -> Grashof:
+        """Grashof's class of a four-bar. Raises MechanismError for any other mechanism."""
         lengths = link_lengths(self.mechanism)
-        return None if lengths is None else grashof(**lengths)
+        if lengths is None:
+            raise MechanismError(f"{self.mechanism.name} has no Grashof class", allowed="a four-bar of four pins")
+        return grashof(**lengths)
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:
@@ -138,7 +140,11 @@ class JudgedMechanism(Shown):
 
     def dwells(self, output: str, tolerance: float) -> tuple[Dwell, ...]:
         """Dwells of an output about its limits, the longest first; tolerance to either side [rad, m]."""
-        return dwells(self.moved, self.output(output), tolerance, *self.inside)
+        first, last = self.inside
+        if self.turns:  # a turn begins where the output is quickest, so that no dwell is cut
+            first = float(self.values[np.nanargmax(np.abs(self.ratio(output)))])
+            last = first + turn
+        return dwells(self.moved, self.output(output), tolerance, first, last)
 
     def time_ratio(self, output: str) -> float:
         """Time ratio of an output with two limits at a constant speed of the input: the slow stroke by the quick one.

@@ -1,3 +1,4 @@
+from ilmek.loom.operations import LoomSetup as LoomSetup
 from ilmek.loom.programme import Programme as Programme
 from ilmek.loom.programme import least_heads as least_heads
 from ilmek.loom.programme import make_programme as make_programme

@@ -126,8 +126,7 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
     tables, present = np.zeros((2, 3, TUBES), np.int64), np.zeros((2, TUBES), np.int64)
     shared = np.zeros((2, MOST_SHARED), np.int64)
     cost, end = np.zeros((2, _STATES)), np.zeros((2, _STATES), np.int64)
-    for one in range(1, _STATES):
-        cost[1, one] = np.inf
+    cost[1, 1:] = np.inf
     chosen_before = np.zeros((_STATES, 4), np.uint8)
     end[1, 0] = column
     chosen_before[0, 2] = handler
@@ -157,9 +156,7 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
         if number > 1:
             boundaries = (begins, ends, shared[now], shared[then])
             _passes((number, present[now], tables[now]), boundaries, state, before, times, out)
-        for one in range(_STATES):
-            ended[step, one] = end[now, one]
-        before = chosen[step]
+        ended[step], before = end[now], chosen[step]
         low, high, line, number, runs, begins = next_low, next_high, next_line, next_number, next_runs, ends
     return _trace((head, first, commit), layout, cost[(steps - 1) % 2], (back, chosen, part_times), ended, spent, keys)
 

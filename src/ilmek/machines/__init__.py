@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from ilmek.plugins import Registry
+
 
 @dataclass(frozen=True, slots=True)
 class Entry:
@@ -10,6 +12,7 @@ class Entry:
     part      whether every automated loom has one      beats  names of the kinds of beat that it can be in a loom
     by_hand   whether a hand loom has one
     knotting  whether it can be in a loom's heads
+    package   that has its MACHINE; default: the one of its name here
     """
 
     summary: str
@@ -17,6 +20,7 @@ class Entry:
     beats: tuple[str, ...] = ()
     knotting: bool = False
     by_hand: bool = False
+    package: str = ""
 
     @property
     def in_a_loom(self) -> bool:
@@ -24,7 +28,7 @@ class Entry:
         return self.part or self.knotting or self.by_hand or bool(self.beats)
 
 
-ENTRIES = {
+_OWN = {
     "automated-loom": Entry("the loom for one carpet: heads, shedding, beat-up, warp tension, timed together"),
     "weaver": Entry("knotting head: six cams on one shaft, one knot a turn (thesis, 2.2.3)", knotting=True),
     "beat-up": Entry(
@@ -72,12 +76,11 @@ ENTRIES = {
         "four-bars whose rocker generates a function of the crank angle, exact or best over the range"
     ),
 }
+
+ENTRIES = Registry("ilmek.machines", _OWN, Entry)
 """Each machine by its name, in the order of the catalogue; its package has the name with _ for -."""
 
-SUMMARIES = {name: entry.summary for name, entry in ENTRIES.items()}
-"""What each machine is, by its name."""
-
-BEATS = {beat: name for name, entry in ENTRIES.items() for beat in entry.beats}
+BEATS = {beat: name for name, entry in _OWN.items() for beat in entry.beats}
 """Machines that can beat in a loom, by the kind of beat."""
 
 

@@ -25,7 +25,8 @@ class Catalogue(Mapping[str, AnyComponent]):
             near = difflib.get_close_matches(name.lower().replace("_", "-"), ENTRIES, n=1)
             hint = f"did you mean {near[0]}?" if near else ""
             raise UnknownMachineError(f"unknown machine {name!r}", allowed=f"machines: {', '.join(ENTRIES)}", do=hint)
-        machine = importlib.import_module(f"ilmek.machines.{name.replace('-', '_')}").MACHINE
+        package = ENTRIES[name].package or f"ilmek.machines.{name.replace('-', '_')}"
+        machine = importlib.import_module(package).MACHINE
         assert isinstance(machine, Component)
         return machine
 

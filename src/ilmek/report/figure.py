@@ -64,11 +64,16 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class Dot:
-    """A named point of a drawing [m]; role: pin (moving joint), pivot (joint on the ground), point."""
+    """A named point of a drawing [m].
+
+    role   pin (moving joint), pivot (joint on the ground), point, block (a slider)
+    along  direction of the guide of a block
+    """
 
     at: complex
     label: str
     role: str = "pin"
+    along: complex = 1.0
 
 
 @record
@@ -157,17 +162,6 @@ class Animation(Shown):
         return self.still.note
 
 
-@record
-class LawCurve:
-    """A motion law to draw: s, v and a on places u from 0 to 1; twice the same u where a or v jumps."""
-
-    name: str
-    u: FloatArray
-    s: FloatArray
-    v: FloatArray
-    a: FloatArray
-
-
 @dataclass(frozen=True, slots=True)
 class Move:
     """A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name."""
@@ -197,6 +191,7 @@ class Lane:
     angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
     events    named master angles [rad]
     moves     its motions, where they are known, in order, and the `unit` their positions are shown in
+    motion    position [SI], velocity and acceleration [SI, s] at the angles, (3, angles), where they are known
     shades    windows to be shaded
     """
 
@@ -208,6 +203,7 @@ class Lane:
     moves: tuple[Move, ...] = ()
     unit: str = ""
     shades: tuple[Shade, ...] = ()
+    motion: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,8 +220,8 @@ class Link:
 class Timing(Shown):
     """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
 
-    laws    of the lanes' moves      links  between instants of the lanes
-    drive   the angle of a turn: figures over a drive of the same name share a cursor
+    links  between instants of the lanes
+    drive  the angle of a turn: figures over a drive of the same name share a cursor
     """
 
     name: str
@@ -233,7 +229,6 @@ class Timing(Shown):
     period: float
     lanes: tuple[Lane, ...]
     note: str = ""
-    laws: tuple[LawCurve, ...] = ()
     links: tuple[Link, ...] = ()
     drive: Axis = Axis("master angle", "deg")
 

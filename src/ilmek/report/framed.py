@@ -1,16 +1,20 @@
-"""Results whose values are columns over samples: a DataFrame, a plot, a CSV file."""
+"""Results whose values are columns over samples, and records as rows: a DataFrame, a plot, a CSV file."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
+from html import escape
 from importlib import import_module
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from ilmek.arguments import Arguments
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.report.figure import Axis, Plot, Series
 from ilmek.report.shown import Shown
+
+Row = TypeVar("Row")
 
 SHOWN_UNITS = {"rad": "deg", "m": "mm", "rad/s": "rpm"}
 """Units in which curves are drawn, where not in SI."""
@@ -27,10 +31,7 @@ class Framed(Shown, ABC):
 
     def frame(self) -> Any:
         """`table` as a DataFrame of pandas or polars, whichever is installed. Raises ParameterError without either."""
-        for library in ("pandas", "polars"):
-            with suppress(ImportError):
-                return import_module(library).DataFrame(dict(self.table()))
-        raise ParameterError("a DataFrame needs pandas or polars", do="install one, or use table()")
+        return data_frame(self.table())
 
     def plot(self, *columns: str, over: str | None = None) -> Plot:
         """Columns as curves, which a notebook shows and `save("plot.svg")` writes.
@@ -63,6 +64,44 @@ class Framed(Shown, ABC):
         one_label = series[0].label if len(series) == 1 else ""
         title = f"{', '.join(curve.label for curve in series)} over {words}"
         return Plot("plot", title, Axis(words, _shown(unit)), Axis(one_label, _shown(units.pop())), series)
+
+
+@dataclass(frozen=True, slots=True)
+class RecordTable(Generic[Row]):
+    """Records of one kind as the rows of a table: a sequence of them, with a column for each of some fields."""
+
+    rows: tuple[Row, ...]
+    fields: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self.rows)
+
+    def __getitem__(self, index: int) -> Row:
+        return self.rows[index]
+
+    def table(self) -> dict[str, list[Any]]:
+        """Columns by field."""
+        return {field: [getattr(row, field) for row in self.rows] for field in self.fields}
+
+    def frame(self) -> Any:
+        """`table` as a DataFrame of pandas or polars. Raises ParameterError without either."""
+        return data_frame(self.table())
+
+    def _repr_html_(self) -> str:
+        lines = [self.fields, *zip(*self.table().values(), strict=True)]
+        cells = ("".join(f"<td>{escape(str(cell))}</td>" for cell in line) for line in lines)
+        return f"<table>{''.join(f'<tr>{line}</tr>' for line in cells)}</table>"
+
+
+def data_frame(columns: Mapping[str, Any]) -> Any:
+    """Columns as a DataFrame of pandas or polars, whichever is installed. Raises ParameterError without either."""
+    for library in ("pandas", "polars"):
+        with suppress(ImportError):
+            return import_module(library).DataFrame(dict(columns))
+    raise ParameterError("a DataFrame needs pandas or polars", do="install one, or use table()")
 
 
 def _split(heading: str) -> tuple[str, str]:

@@ -53,6 +53,7 @@ ORDER = {
     "order.number": "number",
     "order.yarn": "yarn",
     "order.lots": "dye lots",
+    "order.lot": "dye lot",
     "order.mounting": "Mounting sheet",
     "order.knot": "knot",
     "order.cm": "{length} cm",

@@ -53,6 +53,7 @@ ORDER = {
     "order.number": "numara",
     "order.yarn": "iplik",
     "order.lots": "boya partisi",
+    "order.lot": "boya partisi no.",
     "order.mounting": "Çözgü kâğıdı",
     "order.knot": "düğüm",
     "order.cm": "{length} cm",

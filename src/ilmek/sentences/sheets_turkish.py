@@ -44,8 +44,9 @@ SHEETS = {
     "sheet.process-steel-tube": "kesilir",
     "sheet.process-steel-bar": "kesilir",
     "sheet.process-carbon-tube": "kesilir",
-    "sheet.bearing-bonded": "Sağ levha: rulmanın dış bileziği yapıştırılır; sol levhada kayar",
-    "sheet.rings-bonded": "İki rulmanın iç bilezikleri ara parçalara dayalı yapıştırılır",
+    "sheet.leaf-slots": "{number} yarık {width} H9 x {deep}, adım {pitch}, ilkinden ±0,02; yapraklar yapıştırılır",
+    "sheet.ends-of-row": "Yarık sırasının yalnız uçları çizilmiştir",
+    "sheet.axial-play": "Kam milinin levha faturaları arasında boşluğu {low}…{high}: uçtaki ara parça taşlanır",
     "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
     "sheet.gear": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, baş ⌀{tip}, dip ⌀{root}, "

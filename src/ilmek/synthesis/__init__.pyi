@@ -1,9 +1,11 @@
 from ilmek.synthesis.alt_burmester.four_bars import complete_four_bars as complete_four_bars
 from ilmek.synthesis.alt_burmester.task import PosesAndPoints as PosesAndPoints
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation as FunctionApproximation
 from ilmek.synthesis.approximation.function_generator import function_approximations as function_approximations
 from ilmek.synthesis.burmester.curve import burmester_curve as burmester_curve
 from ilmek.synthesis.burmester.links import arms_through_five_poses as arms_through_five_poses
 from ilmek.synthesis.candidate import Candidate as Candidate
+from ilmek.synthesis.crank_rocker.selection import Member as Member
 from ilmek.synthesis.dyad import TwoLinkArm as TwoLinkArm
 from ilmek.synthesis.dyad import arms_through_poses as arms_through_poses
 from ilmek.synthesis.filters import Filters as Filters

@@ -5,15 +5,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ilmek.report import Axis, Lane, LawCurve, Link, Mark, Move, Shade, Timing
+from ilmek.report import Axis, Lane, Link, Mark, Move, Shade, Timing
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, check_all, moment_angle, present
 from ilmek.timing.relations import Presence, Zone
 from ilmek.timing.track import MotionLaw, Track, TrackSegment, joints, laid, sample
 from ilmek.timing.windows import Windows, common
 from ilmek.units import deg, format_number, turn
-
-_SHARES = np.linspace(0.0, 1.0, 65)
-
 
 MASTER = Axis("master angle", "deg")
 
@@ -24,9 +21,7 @@ def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg
     drive  name of the angle, shared with other figures over it
     """
     lanes = tuple(_lane(cyclogram, track, step) for track in cyclogram.tracks)
-    laws = {law_label(part.law): part.law for track in cyclogram.tracks for part in track.segments}
-    curves = tuple(_curve(name, law) for name, law in laws.items())
-    return Timing(cyclogram.name, title, cyclogram.period, lanes, note, curves, tuple(_links(cyclogram)), drive)
+    return Timing(cyclogram.name, title, cyclogram.period, lanes, note, tuple(_links(cyclogram)), drive)
 
 
 def law_label(law: MotionLaw) -> str:
@@ -37,21 +32,18 @@ def law_label(law: MotionLaw) -> str:
 
 def _lane(cyclogram: Cyclogram, track: Track, step: float) -> Lane:
     angle = np.unique(np.concatenate([np.linspace(0, turn, round(turn / step) + 1), joints(track)]))
-    position = sample(track, angle).position
+    drawn = sample(track, angle)
+    position, speed = drawn.position, turn / cyclogram.period
+    motion = np.stack([position, speed * drawn.slope, speed**2 * drawn.bend])
     share = (position - position.min()) / (np.ptp(position) or 1.0)
     events = tuple(Mark(event.angle, event.name) for event in track.events)
     moves = tuple(_move(part) for part in laid(track))
     shades = tuple(dict.fromkeys(_shades(cyclogram, track.name)))
-    return Lane(track.name, track.actuator, angle, share, events, moves, track.unit, shades)
+    return Lane(track.name, track.actuator, angle, share, events, moves, track.unit, shades, motion)
 
 
 def _move(part: TrackSegment) -> Move:
     return Move(part.name, part.start, part.end, part.begin, part.finish, law_label(part.law))
-
-
-def _curve(name: str, law: MotionLaw) -> LawCurve:
-    """The curves of a law at even shares of the time."""
-    return LawCurve(name, _SHARES, *(np.asarray(one(_SHARES), dtype=float) for one in (law.s, law.v, law.a)))
 
 
 def _shades(cyclogram: Cyclogram, name: str) -> Iterator[Shade]:

@@ -1,6 +1,7 @@
 """Pictures of a machine in motion, for a GIF or a video: the figure of the page with its drive and its readings."""
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 from PIL import Image
@@ -9,16 +10,18 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.records import record
 from ilmek.report import Animation
 from ilmek.units import parse_unit
-from ilmek.viz.animation import SECONDS, laid_out
+from ilmek.viz.animation import Between, between, first_of_each, middle, moving_at, pen_of, unnamed
 from ilmek.viz.canvas import FINER, Canvas
-from ilmek.viz.cursor import decimals
-from ilmek.viz.drawing import WIDTH
+from ilmek.viz.drawing import FOOT, WIDTH, draw_parts, draw_still, names, obstacles, shade_of
 from ilmek.viz.font import text_width
-from ilmek.viz.moving_parts import DOT_RADII, MovingBlock, MovingCircle, MovingLine, MovingMarker, MovingPart
+from ilmek.viz.labels import LabelRequest, steady
 from ilmek.viz.number_format import NARROW_SPACE
-from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.strokes import BLOCK
-from ilmek.viz.style import INK, MUTED, PALETTE, PAPER, STEEL, STRONG, TEXT, YARN, shown_unit, tint
+from ilmek.viz.sheet import Sheet
+from ilmek.viz.strokes import Pen
+from ilmek.viz.style import INK, MUTED, PALETTE, STEEL, STRONG, TEXT, YARN, shown_unit, tint
+
+SECONDS = 5.0
+"""Duration of a run [s]."""
 
 PIXELS = 960
 """Width of the pictures."""
@@ -57,29 +60,78 @@ class _Slot:
 
 def pictures(animation: Animation, looks: Mapping[str, int]) -> Iterator[Image.Image]:
     """The pictures of a run: a turn that closes, or forth and back. Between frames, points move on straight lines."""
-    layout = laid_out(animation, looks)
     slots, low = _slots(animation)
-    height = low + layout.sheet.height + _HEAD
-    scale = PIXELS * FINER / WIDTH
-    sheet = Sheet(WIDTH, height)
-    sheet.text(complex(_LEFT, height - 16.0), animation.title, fontsize=STRONG + 1, bold=True)
-    for slot in slots:
-        sheet.text(slot.at, slot.label, fontsize=TEXT, color=MUTED)
+    pen = pen_of(animation, looks)
+    scale, height = PIXELS * FINER / WIDTH, low + pen.sheet.height + _HEAD
     ground = Canvas(WIDTH, height, scale)
-    ground.draw(sheet)
-    still = Canvas(WIDTH, layout.sheet.height, scale)
-    still.draw(layout.sheet)
-    top = round(_HEAD * scale)
-    ground.picture.paste(still.picture, (0, top))
+    ground.draw(_head_and_readings(animation.title, slots, height))
+    moving, labels = _moving(pen, animation, low), _labels(pen, animation)
+    still = Canvas(WIDTH, pen.sheet.height, scale)
+    still.draw(pen.sheet)
+    ground.picture.paste(still.picture, (0, round(_HEAD * scale)))
     for value in _run(animation):
-        canvas = ground.copy()
-        at = _between(value, len(animation.at))
-        for part in layout.parts:
-            _draw(canvas, part, at, 1j * low)
+        at = between(animation, value)
+        picture = ground.copy()
+        picture.draw(moving(at))
+        for centres, label, size, shade in labels:
+            baseline, bold = complex(at(centres)) + 1j * low - 0.35j * size, size == STRONG
+            picture.text(baseline, label, size, shade, anchor="center", bold=bold, edge=1.3)
         for slot in slots:
             beside = slot.at + text_width(slot.label, TEXT) + 5.0
-            canvas.text(beside, slot.written(float(at(slot.values))), TEXT, INK, bold=True)
-        yield canvas.reduced()
+            picture.text(beside, slot.written(float(at(slot.values))), TEXT, INK, bold=True)
+        yield picture.reduced()
+
+
+def _head_and_readings(title: str, slots: list[_Slot], height: float) -> Sheet:
+    sheet = Sheet(WIDTH, height)
+    sheet.text(complex(_LEFT, height - 16.0), title, fontsize=STRONG + 1, bold=True)
+    for slot in slots:
+        sheet.text(slot.at, slot.label, fontsize=TEXT, color=MUTED)
+    return sheet
+
+
+def _moving(pen: Pen, animation: Animation, low: float) -> Callable[[Between], Sheet]:
+    """What draws the moving strokes and all dots at a frame on a sheet that begins `low` [pt] below that of the pen,
+    which gets the rest.
+    """
+    still, first = animation.still, len(animation.still.strokes)
+    quiet = replace(still, strokes=tuple(map(unnamed, still.strokes)), dots=())
+    draw_still(pen, quiet)
+    names(pen, quiet, np.concatenate([obstacles(pen, still), *_covered(pen, animation)]))
+    numbers = {index - first: number for index, number in pen.numbers.items() if index >= first}
+
+    def drawn(at: Between) -> Sheet:
+        sheet, origin = Sheet(pen.sheet.width, pen.sheet.height + low), pen.origin - 1j * low / pen.scale
+        over, moving = replace(pen, sheet=sheet, origin=origin, numbers=numbers, shown={}), moving_at(animation, at)
+        over.shown.update((stroke, over(stroke.points)) for stroke in moving.strokes)
+        draw_parts(over, replace(moving, dots=(*still.dots, *moving.dots)))
+        return over.sheet
+
+    return drawn
+
+
+def _covered(pen: Pen, animation: Animation) -> list[ComplexArray]:
+    """Points along all moving parts at every frame [pt]."""
+    frames = (moving_at(animation, between(animation, frame)) for frame in range(len(animation.at)))
+    return [obstacles(replace(pen, shown={}), drawing) for drawing in frames]
+
+
+def _labels(pen: Pen, animation: Animation) -> list[tuple[ComplexArray, str, float, str]]:
+    """The names of dots and lines: middles over the frames [pt], text, size, colour."""
+    frames, first = len(animation.at), len(animation.still.strokes)
+    named = [(np.full(frames, dot.at), dot.label, STRONG, INK) for dot in animation.still.dots]
+    named += [(dot.at, dot.label, STRONG, INK) for dot in animation.dots]
+    named += [
+        (middle(stroke.points), stroke.label, TEXT, shade_of(pen, stroke.role, number))
+        for number, stroke in enumerate(animation.strokes, first)
+    ]
+    own = [named[number] for number in first_of_each([label for _, label, _, _ in named])]
+    requests = [LabelRequest(pen(at), label, size, 6.0) for at, label, size, _ in own]
+    corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)
+    fixed = obstacles(pen, animation.still)
+    met = [np.concatenate([fixed, points]) for points in _covered(pen, animation)]
+    centres = steady(requests, met, complex(2, FOOT), corner)
+    return [(at, label, size, shade) for (_, label, size, shade), at in zip(own, centres, strict=True)]
 
 
 def _slots(animation: Animation) -> tuple[list[_Slot], float]:
@@ -116,38 +168,10 @@ def _run(animation: Animation) -> FloatArray:
     return np.asarray((frames - 1) * (1 - np.cos(2 * np.pi * phase)) / 2)
 
 
-def _between(value: float, frames: int) -> Callable[[ComplexArray], ComplexArray]:
-    """Values between a frame and the next."""
-    frame = int(value)
-    share = value - frame
+def decimals(extent: float) -> int:
+    """Decimals with which a thousandth of the extent is seen.
 
-    def at(values: ComplexArray) -> ComplexArray:
-        before, after = values[frame], values[(frame + 1) % frames]
-        return np.asarray(before + share * (after - before))
-
-    return at
-
-
-def _draw(canvas: Canvas, part: MovingPart, at: Callable[[ComplexArray], ComplexArray], shift: complex) -> None:
-    """Draw a moving part."""
-    if isinstance(part, MovingLine):
-        points = at(part.points) + shift
-        if part.fill != "none":
-            canvas.area(points, part.fill)
-        if part.width:
-            canvas.line(points, part.stroke, part.width, part.dashes, closed=part.closed)
-        return
-    middle = complex(at(part.at)) + shift
-    if isinstance(part, MovingMarker):
-        canvas.area(middle + part.corners, part.fill, PAPER, 0.5)
-    elif isinstance(part, MovingCircle):
-        radius = DOT_RADII[part.role]
-        pin = part.role == "pin"
-        canvas.area(circle(middle, radius), PAPER if pin else INK, INK, 1.1 if pin else 0.0)
-    elif isinstance(part, MovingBlock):
-        along = complex(at(part.along))
-        corners = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
-        box = (corners.real * BLOCK.real + 1j * corners.imag * BLOCK.imag) * along / (abs(along) or 1.0)
-        canvas.area(middle + box, "#e4e8ec", STEEL, 1.2)
-    else:
-        canvas.text(middle - 0.35j * STRONG, part.text, STRONG, INK, anchor="center", bold=True, edge=1.3)
+    >>> decimals(360.0), decimals(1.2), decimals(25000.0)
+    (0, 3, 0)
+    """
+    return int(np.clip(3 - np.floor(np.log10(extent) + 0.5), 0, 9)) if extent > 0 else 1

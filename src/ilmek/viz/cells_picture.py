@@ -37,8 +37,9 @@ def with_flat_weave(pile: Rgb, chart: Chart, rng: np.random.Generator, part: tup
     """The picture of the pile of some cells with flat weave in the place of the cells without a knot."""
     if chart.cells is None:
         return pile
-    bare = _on(chart.knots[part] == NO_KNOT, pile.shape[:2])
-    return np.where(bare[..., np.newaxis], flat_band(*pile.shape[:2], rng), pile) if bare.any() else pile
+    height, width = pile.shape[:2]
+    bare = _on(chart.knots[part] == NO_KNOT, (height, width))
+    return np.where(bare[..., np.newaxis], flat_band(height, width, rng), pile) if bare.any() else pile
 
 
 def cut_out(image: Image.Image, chart: Chart) -> Image.Image | None:

@@ -60,13 +60,18 @@ def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: f
 
 def draw_still(pen: Pen, drawing: Drawing) -> None:
     """Draw strokes, dots and the scale bar, without names."""
+    draw_parts(pen, drawing)
+    _scale_bar(pen)
+
+
+def draw_parts(pen: Pen, drawing: Drawing) -> None:
+    """Draw strokes and dots."""
     if drawing.strokes:
         pen.thinned(drawing.strokes[0], drawing.strokes)
     for number, stroke in enumerate(drawing.strokes):
         STROKES[stroke.role](pen, stroke, number)
     for dot in drawing.dots:
-        DOTS[dot.role](pen, complex(pen(np.array([dot.at]))[0]))
-    _scale_bar(pen)
+        DOTS[dot.role](pen, complex(pen(np.array([dot.at]))[0]), dot.along)
 
 
 def _corners(points: ComplexArray) -> tuple[complex, complex]:
@@ -109,7 +114,7 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
             seen.add(stroke.label)
             anchors = _beside(pen.thinned(stroke, drawing.strokes), stroke.closed)
             requests.append(LabelRequest(anchors, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
-            looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
+            looks.append({"color": shade_of(pen, stroke.role, number), "fontsize": TEXT})
     corner = complex(pen.sheet.width, pen.sheet.height)
     centres = placed(requests, covered, complex(2.0, foot), corner - (2 + 2j))
     for one, centre, look in zip(requests, centres, looks, strict=True):
@@ -117,10 +122,11 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
     return [(centre, one.half) for one, centre in zip(requests, centres, strict=True)]
 
 
-def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
+def shade_of(pen: Pen, role: str, number: int) -> str:
+    """The colour of the letters of a stroke's name, by its role and its number in the drawing."""
     if number in pen.numbers:
         return letters(colour(pen.numbers[number]))
-    return {"yarn": YARN, "outline": INK}.get(stroke.role, MUTED)
+    return {"yarn": YARN, "outline": INK}.get(role, MUTED)
 
 
 def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:

@@ -1,5 +1,8 @@
 """Placement of names beside the parts that they name, clear of lines and of each other."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial import KDTree
 
@@ -55,6 +58,32 @@ def placed(requests: list[LabelRequest], obstacles: ComplexArray, lower: complex
             cost += 200.0 * (apart & (np.abs((candidates - centre).imag) < (half + other).imag))
         boxes.append((complex(candidates[int(np.argmin(cost))]), half))
     return [centre for centre, _ in boxes]
+
+
+def steady(
+    requests: Sequence[LabelRequest], obstacles: Sequence[ComplexArray], lower: complex, upper: complex
+) -> list[ComplexArray]:
+    """Centres of the names of moving points at every frame [pt], each always on the same side of its point.
+
+    requests   names with their points over the frames as anchors
+    obstacles  points that should not be covered at each frame [pt]
+
+    The costs are those of `placed`, summed over the frames.
+    """
+    found: list[tuple[ComplexArray, complex]] = []
+    for request in requests:
+        half = request.half
+        offsets, cost = _candidates(replace(request, anchors=np.zeros(1, complex)))
+        centres = request.anchors[:, np.newaxis] + offsets
+        least, most = lower + half, upper - half
+        out = (centres.real < least.real) | (centres.real > most.real)
+        out |= (centres.imag < least.imag) | (centres.imag > most.imag)
+        total = 400.0 * out + cost + [covered(at, half, met) for at, met in zip(centres, obstacles, strict=True)]
+        for other, own in found:
+            apart = centres - other[:, np.newaxis]
+            total += 200.0 * ((np.abs(apart.real) < (half + own).real) & (np.abs(apart.imag) < (half + own).imag))
+        found.append((centres[:, int(np.argmin(total.sum(axis=0)))], half))
+    return [centres for centres, _ in found]
 
 
 def _candidates(one: LabelRequest) -> tuple[ComplexArray, FloatArray]:

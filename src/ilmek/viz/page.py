@@ -4,6 +4,7 @@ The template engine escapes all texts. `machine_page` shows the report of one ma
 carpet, `loom_page` that of its loom.
 """
 
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +15,7 @@ import ilmek
 from ilmek.errors import encodable
 from ilmek.report import Report
 from ilmek.sentences import Sentence, translated
-from ilmek.viz.animation import SECONDS
+from ilmek.viz.embedded import client
 from ilmek.viz.number_format import amount, beside, cells, compared, count, fixed, number, quantity, words
 from ilmek.viz.sections import PageVerdict, failures_first, judged, section, shown_first
 from ilmek.viz.style import shown_unit, with_unit
@@ -68,6 +69,15 @@ def sentence(key: str, **values: object) -> str:
     return translated(Sentence(key, **values))
 
 
+def _squeezed(style: str) -> str:
+    r"""A style sheet without the spaces that it does not need.
+
+    >>> _squeezed("a, p :hover { color: red; }\n@media print { b { top: 0 } }")
+    'a,p :hover{color:red;}@media print{b{top:0}}'
+    """
+    return re.sub(r"\s*([{};,])\s*|(?<=[a-z]:)\s+", r"\1", style.strip())
+
+
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
     """The template engine: all texts are escaped, a missing name is an error."""
@@ -91,7 +101,8 @@ def _environment() -> Environment:
         "first_checks": shown_first,
         "unit": shown_unit,
         "with_unit": with_unit,
+        "squeezed": _squeezed,
     }
     environment.filters.update(filters)
-    environment.globals.update(seconds=SECONDS, first_checks=FIRST_CHECKS, tests_title=TESTS, sentence=sentence)
+    environment.globals.update(client=client, first_checks=FIRST_CHECKS, tests_title=TESTS, sentence=sentence)
     return environment

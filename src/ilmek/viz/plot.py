@@ -10,7 +10,6 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.records import JsonObject
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
-from ilmek.viz.cursor import cursor, has_cursor
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
 from ilmek.viz.looks import dashes, marker_shape, numbered
@@ -37,13 +36,11 @@ class _Entry:
     left: float
 
 
-def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
-    """The curves with grid, axes with units, legend above the curves and labels of the marks between the two; and the
-    SVG of the cursor, with the data of its script.
-    """
+def draw_plot(plot: Plot, looks: Mapping[str, int]) -> Sheet:
+    """The curves with grid, axes with units, legend above the curves and labels of the marks between the two."""
     x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
     y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
-    if plot.series and not has_cursor(plot) and plot.x.unit == plot.y.unit:
+    if plot.series and not _unique(plot) and plot.x.unit == plot.y.unit:
         x_span, y_span = _equal_scales(x_span, y_span)
     x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
     left = 26.0 + max((text_width(label, SMALL) for label in tick_labels(y_ticks)), default=0.0)
@@ -65,7 +62,12 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     _draw_curves(sheet, scales, plot, numbers)
     _draw_marks(sheet, box, scales, plot, tiers)
     _draw_legend(sheet, entries)
-    return sheet, cursor(plot, sheet, box, (x_span, y_span), numbers) if has_cursor(plot) else ""
+    return sheet
+
+
+def _unique(plot: Plot) -> bool:
+    """Whether a plot has a curve with one ordinate for an abscissa."""
+    return any(len(one.x) > 0 and bool(np.all(np.diff(one.x) >= 0)) for one in plot.series)
 
 
 def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]) -> None:
@@ -74,7 +76,7 @@ def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]
     for index, (one, number) in enumerate(zip(plot.series, numbers, strict=True)):
         x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
         points = thinned_line(scales.x(x) + 1j * scales.y(y))
-        sheet.line(points, zorder=3, attribute=f'data-series="{index}"', **_line(one, number))
+        sheet.line(points, zorder=3, **_line(one, number))
         if several:
             for at in _spread(points, scales.box, (index + 0.5) / len(plot.series)):
                 _mark(sheet, at, number)

@@ -11,7 +11,7 @@ Each pixel of the floor reads the picture of the carpet where its ray meets it: 
 from collections.abc import Iterator
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFilter, ImageOps
 
 from ilmek.arrays import FloatArray, Rgb
 from ilmek.records import record
@@ -25,7 +25,10 @@ _FINER = 2
 _EYE, _GAP, _SETTEE = 1.8, 0.35, (1.9, 0.85, 0.42, 0.82)
 """Height of the camera; floor before and behind the carpet; width, depth, seat and height of the settee [m]."""
 
-_SKIRTING, _BOARD = 0.09, 0.14
+_SKIRTING, _BOARD, _SHADOW = 0.09, 0.14, 0.03
+_WHITE = 247
+"""Code below which a picture shows a carpet and not its white paper."""
+
 _WALL, _TRIM, _OAK, _CLOTH, _SHADE = (232, 228, 219), (248, 246, 241), (181, 140, 98), (122, 134, 142), (50, 38, 26)
 
 
@@ -92,19 +95,30 @@ def _floor(x: FloatArray, y: FloatArray, camera: _Camera, carpet: Image.Image, s
     shade = np.sin(78.233 * board + 37.719 * joint) * 43758.5453
     grain = 1.0 + 0.09 * ((shade - np.floor(shade)) - 0.5) + 0.015 * np.sin(210 * x + 3 * np.sin(2.1 * y + board))
     seams = 1.0 - 0.22 * (np.abs(x / _BOARD - np.round(x / _BOARD)) * _BOARD < 0.0016)
-    beyond = np.maximum(np.abs(x) - width / 2, np.abs(y - _GAP - length / 2) - length / 2)
-    shadow = 1.0 - 0.35 * np.exp(-np.maximum(beyond, 0.0) / 0.025)
     light = _daylight(x, y, camera)
-    floor = np.array(_OAK) * (grain * seams * shadow * light)[..., np.newaxis]
-    texels = np.asarray(carpet.convert("RGB"))
+    texels = _framed(carpet, width)
     high, wide = texels.shape[:2]
-    across, down = (x / width + 0.5) * wide - 0.5, (1 - (y - _GAP) / length) * high - 0.5
+    scale = carpet.width / width
+    across = (x + width / 2) * scale + (wide - carpet.width) / 2 - 0.5
+    down = np.broadcast_to((_GAP + length - y) * scale + (high - carpet.height) / 2 - 0.5, x.shape)
     inside = (across > 0) & (across < wide - 1) & (down > 0) & (down < high - 1)
-    woven = _read(texels, across[inside], np.broadcast_to(down, x.shape)[inside])
-    pile = np.any(woven < 247, axis=1)
-    there = np.flatnonzero(inside)[pile]
-    floor.reshape(-1, 3)[there] = woven[pile] * light.reshape(-1)[there, np.newaxis]
+    seen = _read(texels, across[inside], down[inside])
+    there = np.flatnonzero(inside)
+    shadow = np.ones(x.size)
+    shadow[there] = 1.0 - 0.40 * seen[:, 3] / 255
+    floor = np.array(_OAK) * (grain * seams * shadow.reshape(x.shape) * light)[..., np.newaxis]
+    pile = np.any(seen[:, :3] < _WHITE, axis=1)
+    floor.reshape(-1, 3)[there[pile]] = seen[pile, :3] * light.reshape(-1)[there[pile], np.newaxis]
     return _codes(floor)
+
+
+def _framed(carpet: Image.Image, width: float) -> Rgb:
+    """The picture of the carpet with a margin, and as a fourth colour the shadow that it casts beside it."""
+    blur = max(1.0, _SHADOW * carpet.width / width)
+    framed = ImageOps.expand(carpet.convert("RGB"), round(3 * blur), (255, 255, 255))
+    pile = np.any(np.asarray(framed) < _WHITE, axis=2)
+    shadow = Image.fromarray(np.where(pile, np.uint8(255), np.uint8(0))).filter(ImageFilter.GaussianBlur(blur))
+    return np.dstack((np.asarray(framed), np.asarray(shadow)))
 
 
 def _daylight(x: FloatArray, y: FloatArray, camera: _Camera) -> FloatArray:

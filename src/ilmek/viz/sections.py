@@ -3,13 +3,15 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import msgspec
 from markupsafe import Markup
 
 from ilmek.report import Animation, Check, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
-from ilmek.viz.cursor import has_cursor
-from ilmek.viz.looks import looks_of, numbered
-from ilmek.viz.style import colour
+from ilmek.sentences import translated
+from ilmek.viz.embedded import compressed
+from ilmek.viz.looks import looks_of
+from ilmek.viz.plain.figures import shown_figure
 from ilmek.viz.svg import svg
 
 
@@ -31,17 +33,16 @@ class PageVerdict:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A figure and its SVG.
-
-    kind    "", "wide" (whole width), "moves" (animated), "read" (a plot with a cursor),
-            "wide timed" (a cyclogram with one)
-    curves  name and colour of each curve of a plot
-    """
+    """A figure, its SVG, and its data, compressed, from which the client draws it; "" where that is left out."""
 
     figure: Figure
     svg: Markup
-    kind: str
-    curves: tuple[tuple[str, str], ...] = ()
+    data: str = ""
+
+    @property
+    def wide(self) -> bool:
+        """Whether it takes the whole width."""
+        return isinstance(self.figure, Timing | Gantt | StackedBars)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,26 +110,10 @@ def drawn(figure: Figure, left_out: list[str], looks: Mapping[str, int] | None =
     looks = looks_of((figure,)) if looks is None else looks
     made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure, looks), left_out)
     if made is None:
-        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "")
-    return Drawn(figure, Markup(made), _kind(figure), _curves(figure, looks))
-
-
-def _curves(figure: Figure, looks: Mapping[str, int]) -> tuple[tuple[str, str], ...]:
-    if not isinstance(figure, Plot):
-        return ()
-    numbers = numbered((one.label for one in figure.series), looks)
-    names = (one.label or figure.y.label for one in figure.series)
-    return tuple((name, colour(number)) for name, number in zip(names, numbers, strict=True))
-
-
-def _kind(figure: Figure) -> str:
-    if isinstance(figure, Timing):
-        return "wide timed" if figure.laws else "wide"
-    if isinstance(figure, Gantt | StackedBars):
-        return "wide"
-    if isinstance(figure, Plot):
-        return "read" if has_cursor(figure) else ""
-    return "moves" if isinstance(figure, Animation) else ""
+        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]))
+    return Drawn(
+        figure, Markup(made), compressed(msgspec.json.encode(shown_figure(figure, looks), enc_hook=translated))
+    )
 
 
 def judged(own: Sequence[Check], reports: Iterable[Report]) -> list[MachineCheck]:

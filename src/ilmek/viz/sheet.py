@@ -28,15 +28,13 @@ _PAD = 1.0
 class LineMark:
     """A line through points [pt]; NaN makes a gap.
 
-    dashes     lengths of dash, gap, dash ... in line widths; default: a full line
-    attribute  of the element, for a script
+    dashes  lengths of dash, gap, dash ... in line widths; default: a full line
     """
 
     points: ComplexArray
     color: str = INK
     linewidth: float = 1.0
     dashes: Sequence[float] = ()
-    attribute: str = ""
 
 
 @record
@@ -103,10 +101,8 @@ class Sheet:
         """Draw a text, at a level; look: as of a `TextMark`."""
         self._marks.append((zorder, TextMark(at, words, **look)))
 
-    def svg(self, title: str, fonts: str, over: str = "") -> str:
+    def svg(self, title: str, fonts: str) -> str:
         """The sheet as an `<svg>` element with a title and no fixed size: its view box keeps the proportions.
-
-        over  SVG that is drawn over the sheet
 
         >>> text = Sheet(72, 36).svg("a < b", "sans-serif")
         >>> text.startswith("<svg") and "a &lt; b" in text
@@ -116,7 +112,7 @@ class Sheet:
         text = (
             f'<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 {self.width:.6g} {self.height:.6g}" '
             f'style="stroke-linejoin:round;font-family:{fonts}" aria-label={quoteattr(title)}>\n'
-            f'<title>{escape(title)}</title>\n<g fill="none" stroke-linecap="round">\n{marks}\n</g>\n{over}</svg>'
+            f'<title>{escape(title)}</title>\n<g fill="none" stroke-linecap="round">\n{marks}\n</g>\n</svg>'
         )
         return _CONTROL.sub("", text)
 
@@ -132,8 +128,7 @@ class Sheet:
         else:
             lengths = " ".join(f"{mark.linewidth * length:.4g}" for length in mark.dashes)
             broken = f' stroke-dasharray="{lengths}" stroke-linecap="butt"' if lengths else ""
-            more = f" {mark.attribute}" if mark.attribute else ""
-            yield f'<path d="{through}" stroke="{mark.color}" stroke-width="{mark.linewidth:g}"{broken}{more}/>'
+            yield f'<path d="{through}" stroke="{mark.color}" stroke-width="{mark.linewidth:g}"{broken}/>'
 
     def _text(self, mark: TextMark) -> Iterator[str]:
         x, y, size = mark.at.real, self.height - mark.at.imag, mark.fontsize

@@ -11,11 +11,14 @@ from ilmek.records import record
 from ilmek.report import Stroke
 from ilmek.viz.font import text_width
 from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, tint
+from ilmek.viz.style import GRID, INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, tint
 from ilmek.viz.thinning import thinned_line, thinned_lines
 
 BLOCK = 10 + 6.5j
 """Half the length + i half the height of a slider's block [pt]."""
+
+PITCH = (6.0, 1.7, 1.3, 1.7)
+"""Dashes of a pitch circle [line widths]."""
 
 
 @record
@@ -162,22 +165,35 @@ def _middle(points: ComplexArray) -> tuple[complex, complex]:
     )
 
 
-def _pin(pen: Pen, at: complex) -> None:
+def _wheel(pen: Pen, stroke: Stroke, number: int) -> None:
+    """The pitch circle of a wheel, with a radius that shows its turn."""
+    shade = colour(pen.numbers[number])
+    points = _line(pen, stroke, color=shade, linewidth=1.2, dashes=PITCH, zorder=3.8)
+    pen.sheet.area(points, facecolor=tint(shade, 0.1), linewidth=0, zorder=1.7)
+
+
+def _pin(pen: Pen, at: complex, _: complex) -> None:
     pen.sheet.area(circle(at, 3.4), facecolor=PAPER, edgecolor=INK, linewidth=1.1, zorder=7)
 
 
-def _pivot(pen: Pen, at: complex) -> None:
+def _pivot(pen: Pen, at: complex, along: complex) -> None:
     """A triangle on hatched ground with the pin at its tip."""
     corners = at + np.array([0, -7.5 - 12j, 7.5 - 12j])
     pen.sheet.area(corners, facecolor="#e4e8ec", edgecolor=INK, linewidth=1.0, zorder=3.6)
     base = at + np.array([-10.5 - 12j, 10.5 - 12j])
     pen.sheet.line(base, color=INK, linewidth=1.0, zorder=3.6)
     _hatch(pen.sheet, base, 5.0)
-    _pin(pen, at)
+    _pin(pen, at, along)
 
 
-def _point(pen: Pen, at: complex) -> None:
+def _point(pen: Pen, at: complex, _: complex) -> None:
     pen.sheet.area(circle(at, 1.9), facecolor=INK, linewidth=0, zorder=7)
+
+
+def _block(pen: Pen, at: complex, along: complex) -> None:
+    """A slider along its guide."""
+    corners = at + np.array([BLOCK, -BLOCK.conjugate(), -BLOCK, BLOCK.conjugate()]) * along / (abs(along) or 1.0)
+    pen.sheet.area(corners, facecolor=GRID, edgecolor=STEEL, linewidth=1.2, zorder=6.5)
 
 
 STROKES: Mapping[str, Callable[[Pen, Stroke, int], None]] = {
@@ -189,5 +205,12 @@ STROKES: Mapping[str, Callable[[Pen, Stroke, int], None]] = {
     "construction": _construction,
     "dimension": _dimension,
     "yarn": _yarn,
+    "wheel": _wheel,
 }
-DOTS: Mapping[str, Callable[[Pen, complex], None]] = {"pin": _pin, "pivot": _pivot, "point": _point}
+DOTS: Mapping[str, Callable[[Pen, complex, complex], None]] = {
+    "pin": _pin,
+    "pivot": _pivot,
+    "point": _point,
+    "block": _block,
+}
+"""Each draws at a point of the sheet [pt]; a block along a direction."""

@@ -22,17 +22,16 @@ def svg(figure: Figure, looks: Mapping[str, int] | None = None) -> str:
     looks  of the report's labels; default: those of this figure alone
     """
     looks = looks_of((figure,)) if looks is None else looks
-    over = ""
     if isinstance(figure, Plot):
-        sheet, over = draw_plot(figure, looks)
+        sheet = draw_plot(figure, looks)
     elif isinstance(figure, Drawing):
         sheet = draw_drawing(figure, looks)
     elif isinstance(figure, Animation):
-        sheet, over = draw_animation(figure, looks)
+        sheet = draw_animation(figure, looks)
     elif isinstance(figure, Gantt):
         sheet = draw_gantt(figure, looks)
     elif isinstance(figure, StackedBars):
         sheet = draw_stacked(figure, looks)
     else:
-        sheet, over = draw_timing(figure, looks)
-    return sheet.svg(figure.title, FONTS, over)
+        sheet = draw_timing(figure, looks)
+    return sheet.svg(figure.title, FONTS)

@@ -2,26 +2,23 @@
 
 Tracks are stacked over a common master angle. A motion is drawn as the curve of its position, with its name and law
 below; a dwell is flat. Events are ticks with names above the curve. Intervals in a zone that another track needs are
-shaded; arrows show the required order of events. The lower axis is the angle, the upper one the time. If the laws of
-the motions are known, a script of the page (`timing.js`) moves a cursor over their curves.
+shaded; arrows show the required order of events. The lower axis is the angle, the upper one the time.
 """
 
 from collections.abc import Mapping
-from xml.sax.saxutils import escape
 
 import numpy as np
 
 from ilmek.records import JsonObject
 from ilmek.report import Lane, Move, Shade, Timing
-from ilmek.units import deg, format_number, format_quantity, parse_unit
-from ilmek.viz.cursor import drive, metadata
+from ilmek.units import deg
 from ilmek.viz.flags import Flag, flags
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
 from ilmek.viz.looks import numbered
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet, circle
-from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, shown_unit, tint
+from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, tint
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH = 600.0
@@ -34,8 +31,8 @@ _BAD, _SHADE = "#c0392b", "#8a94a0"
 _TURN = 360.0
 
 
-def draw_timing(timing: Timing, looks: Mapping[str, int]) -> tuple[Sheet, str]:
-    """The sheet with the stacked tracks, the first on top, and the SVG of the curves that a script may change."""
+def draw_timing(timing: Timing, looks: Mapping[str, int]) -> Sheet:
+    """The sheet with the stacked tracks, the first on top."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
     actuators += [text_width(_shared_law(lane), _FINE) for lane in timing.lanes]
@@ -46,7 +43,7 @@ def draw_timing(timing: Timing, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     sheet = Sheet(WIDTH, box.top + _TOP)
     paper(sheet, box)
     _axes(sheet, box, timing)
-    ceiling, floors, over = box.top - 1.0, [], []
+    ceiling, floors = box.top - 1.0, []
     numbers = numbered((lane.name for lane in timing.lanes), looks)
     for number, lane, lane_flags, height in zip(numbers, timing.lanes, flown, heights, strict=True):
         ceiling -= height
@@ -54,13 +51,13 @@ def draw_timing(timing: Timing, looks: Mapping[str, int]) -> tuple[Sheet, str]:
         floors.append(floor)
         for shade in lane.shades:
             _shade(sheet, lane, shade, floor, box.width)
-        over.append(_motion(sheet, lane, floor, box.width, colour(number)))
+        _motion(sheet, lane, floor, box.width, colour(number))
         _events(sheet, lane, lane_flags, floor)
         _name(sheet, lane, floor + 1j * _STROKE / 2)
         if lane is not timing.lanes[-1]:
             sheet.line(1j * ceiling + np.array([box.left, box.right]), color=AXIS, linewidth=0.4)
     _links(sheet, timing, floors, box.width)
-    return sheet, "".join(over) + (_run(timing, sheet, box, floors) if timing.laws else "")
+    return sheet
 
 
 def _height(lane: Lane, lane_flags: list[Flag]) -> float:
@@ -73,8 +70,8 @@ def _flags(lane: Lane, width: float) -> list[Flag]:
     return flags(ticks_at, [text_width(event.label, SMALL) + 7.0 for event in lane.events], width)
 
 
-def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> str:
-    """Draw the position over its baseline, which begins at `floor` [pt]; as SVG if its laws are known."""
+def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) -> None:
+    """Draw the position over its baseline, which begins at `floor` [pt]."""
     angle, position = thinned_curve(np.asarray(lane.angle, dtype=float), np.asarray(lane.position, dtype=float))
     points = thinned_line(floor + angle / deg / _TURN * width + 1j * _STROKE * position)
     finite = points[np.isfinite(points)]
@@ -82,14 +79,9 @@ def _motion(sheet: Sheet, lane: Lane, floor: complex, width: float, shade: str) 
     if len(finite):
         feet = np.array([finite[-1].real, finite[0].real]) + 1j * floor.imag
         sheet.area(np.concatenate([finite, feet]), facecolor=tint(shade, 0.16), linewidth=0, zorder=0.8)
-    if not lane.moves:
-        sheet.line(points, color=shade, linewidth=1.6, zorder=3)
-        return ""
+    sheet.line(points, color=shade, linewidth=1.6, zorder=3)
     for move in lane.moves:
         _law(sheet, move, floor, width, shared=bool(_shared_law(lane)))
-    through = "L".join(f"{at.real:.1f} {sheet.height - at.imag:.1f}" for at in finite)
-    boxes = "".join(_hover(sheet, lane, move, floor, width) for move in lane.moves)
-    return f'<path data-lane="" d="M{through}" fill="none" stroke="{shade}" stroke-width="1.6"/>{boxes}'
 
 
 def _shared_law(lane: Lane) -> str:
@@ -108,17 +100,6 @@ def _law(sheet: Sheet, move: Move, floor: complex, width: float, *, shared: bool
     fits = next((words for words in texts if text_width(words, _FINE) <= room + 2.0), None)
     if fits:
         sheet.text(floor + middle - 1.8j, fits, fontsize=_FINE, color=MUTED, ha="center", va="top", zorder=5)
-
-
-def _hover(sheet: Sheet, lane: Lane, move: Move, floor: complex, width: float) -> str:
-    """The tooltip of a motion."""
-    left, right = (at / deg / _TURN * width for at in (max(move.start, 0.0), min(move.end, _TURN * deg)))
-    ends = f"{format_quantity(move.begin, lane.unit)} → {format_quantity(move.finish, lane.unit)}"
-    angles = f"{format_number(move.start / deg)}°..{format_number(move.end / deg)}°"
-    tooltip = escape(f"{lane.name}: {move.name}, {move.law}, {angles}, {ends}")
-    top = sheet.height - floor.imag - _STROKE
-    box = f'x="{floor.real + left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{_STROKE + _LAW:g}"'
-    return f'<rect {box} fill="transparent"><title>{tooltip}</title></rect>'
 
 
 def _shade(sheet: Sheet, lane: Lane, shade: Shade, floor: complex, width: float) -> None:
@@ -198,33 +179,3 @@ def _axes(sheet: Sheet, box: Box, timing: Timing) -> None:
     upper_axis(sheet, box, [box.left + t * factor / period * box.width for t in times], times, f"time [{unit}]")
     for x in (box.left, box.right):
         sheet.line(x + 1j * np.array([box.low, box.top]), color=AXIS, linewidth=0.7)
-
-
-def _run(timing: Timing, sheet: Sheet, box: Box, floors: list[complex]) -> str:
-    """The cursor, and the data of the script as JSON: laws as tables, motions, positions of the lanes."""
-    numbers = {law.name: index for index, law in enumerate(timing.laws)}
-    lanes = []
-    for lane, floor in zip(timing.lanes, floors, strict=True):
-        factor = parse_unit(lane.unit).factor
-        moves = [
-            [_short(one) for one in (move.start / deg, move.end / deg, move.begin / factor, move.finish / factor)]
-            + [numbers[move.law]]
-            for move in lane.moves
-        ]
-        lanes.append({"floor": round(sheet.height - floor.imag, 2), "unit": shown_unit(lane.unit), "moves": moves})
-    run = {
-        **drive(timing.drive.label, timing.drive.unit, (0.0, _TURN)),
-        "left": round(box.left, 2),
-        "width": round(box.width, 2),
-        "stroke": _STROKE,
-        "period": timing.period,
-        "lanes": lanes,
-        "laws": [[[_short(y) for y in row] for row in (law.s, law.v, law.a)] for law in timing.laws],
-    }
-    low, high = sheet.height - box.top, sheet.height - box.low
-    cursor = f'<path data-cursor="" d="M0 {low:.1f}V{high:.1f}" stroke="{INK}" stroke-width="1" visibility="hidden"/>'
-    return f"{cursor}{metadata(run)}"
-
-
-def _short(value: float) -> float:
-    return float(f"{value:.6g}")

@@ -1296,6 +1296,8 @@ export interface ShownTiming {
 /**
  * A track of a cyclogram: position 0 to 1 over the master angle [rad].
  *
+ *     motion  position [SI], velocity and acceleration [SI, s] at the angles; empty where they are not known
+ *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownLane".
  */
@@ -1309,6 +1311,7 @@ export interface ShownLane {
   events: Mark[];
   moves: Move[];
   shades: Shade[];
+  motion: (number | null)[][];
 }
 /**
  * A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name.

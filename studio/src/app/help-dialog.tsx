@@ -38,7 +38,7 @@ export function HelpDialog({ view, open, onClose }: { view: View; open: boolean;
 function keysOf(view: View): string[] {
   const own: Record<View, string[]> = {
     carpet: [t("carpet.keys"), t("carpet.weaverKeys")],
-    machine: [t("app.keysSlider"), t("ui.plotKeys"), t("ui.drawingKeys")],
+    machine: [t("app.keysSlider"), t("figure.plotKeys"), t("figure.drawingKeys")],
     linkage: [t("linkage.keys")],
     synthesis: [t("synthesis.pointsHint")],
     cyclogram: [t("app.keysSlider"), t("app.keysMotion")],

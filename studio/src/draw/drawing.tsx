@@ -11,7 +11,7 @@ import { type Extent, extentOf, type Map2D, mapOf, type View, WHOLE } from "./vi
 interface DrawingProps {
   drawing: ShownDrawing;
   title: string;
-  height?: number;
+  height?: number | undefined;
   /** The box that is shown [m]; without it that of the drawing. */
   extent?: Extent;
 }

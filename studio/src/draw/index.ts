@@ -1,4 +1,7 @@
 /** Figures of reports, drawn from plain data, with a shared cursor. */
+import "./checks.css";
+import "./draw.css";
+
 export { CheckList, type CheckShown } from "./checks";
 export { CursorContext, type Cursors, cursorOf, moveTo, useCursor } from "./cursor";
 export { Drawing } from "./drawing";

@@ -17,11 +17,14 @@ export interface Colours {
 
 const known = new Map<boolean, Colours>();
 
+/** The element whose custom properties are the colours of figures. */
+export const tokens: { of: Element } = { of: document.documentElement };
+
 /** The colours of figures in the theme shown. */
 export function colours(): Colours {
   const kept = known.get(dark.peek());
   if (kept !== undefined) return kept;
-  const style = getComputedStyle(document.documentElement);
+  const style = getComputedStyle(tokens.of);
   const of = (name: string) => style.getPropertyValue(`--${name}`).trim();
   const made: Colours = {
     curves: Array.from({ length: 8 }, (_, number) => of(`fig-${number}`)),

@@ -15,7 +15,7 @@ import { type Extent, type Map2D, mapOf, type View, WHOLE } from "./viewport";
 interface PlayerProps {
   animation: ShownAnimation;
   title: string;
-  height?: number;
+  height?: number | undefined;
   /** The box that is shown [m]; without it all positions that are reached. */
   extent?: Extent | undefined;
   /** Begins to move by itself, unless the system asks for less motion. */
@@ -102,7 +102,7 @@ function Controls({ animation, cursor, range, at, autoplay }: ControlsProps) {
       <IconButton
         icon={playing ? "pause" : "play"}
         kind="plain"
-        label={playing ? t("ui.pause") : t("ui.play")}
+        label={playing ? t("figure.pause") : t("figure.play")}
         onClick={() => {
           cursor.player.value = playing ? null : me;
         }}
@@ -120,18 +120,18 @@ function Controls({ animation, cursor, range, at, autoplay }: ControlsProps) {
       <output>{formatQuantity(at, animation.drive.shown_unit)}</output>
       <select
         class="ui-input"
-        aria-label={t("ui.speed")}
+        aria-label={t("figure.speed")}
         value={String(seconds)}
         onChange={(event) => setSeconds(Number(event.currentTarget.value))}
       >
         {RUNS.map((one) => (
           <option key={one} value={String(one)}>
-            {t("ui.perRun", { seconds: one })}
+            {t("figure.perRun", { seconds: one })}
           </option>
         ))}
         {real !== null && !RUNS.some((one) => one === real) && (
           <option value={String(real)}>
-            {t("ui.realSpeed")} ({formatNumber(real, 3)} s)
+            {t("figure.realSpeed")} ({formatNumber(real, 3)} s)
           </option>
         )}
       </select>

@@ -35,14 +35,25 @@ export function rangesOf(plot: ShownPlot): Ranges {
   };
 }
 
+/** Ranges of equal scales in both directions for a curve in a plane, which has no single ordinate for an abscissa. */
+function equalScales(plot: ShownPlot, ranges: Ranges, room: number): Ranges {
+  const rising = (x: Numbers) => x.every((value, k) => k === 0 || (value ?? 0) >= (x[k - 1] ?? 0));
+  const { x, y } = ranges;
+  if (plot.x.shown_unit !== plot.y.shown_unit || plot.curves.some((curve) => rising(curve.x))) return ranges;
+  const [wide, high] = [x.high - x.low, y.high - y.low];
+  const [moreX, moreY] = [Math.max(high * room - wide, 0) / 2, Math.max(wide / room - high, 0) / 2];
+  return { x: { low: x.low - moreX, high: x.high + moreX }, y: { low: y.low - moreY, high: y.high + moreY } };
+}
+
 /** Paints axes, marks and curves, and returns where they lie. */
 export function paintPlot(
   context: CanvasRenderingContext2D,
   plot: ShownPlot,
-  ranges: Ranges,
+  given: Ranges,
   width: number,
   height: number,
 ): Layout {
+  const ranges = equalScales(plot, given, (width - 60) / (height - 40));
   const [fx, fy] = [parseUnit(plot.x.shown_unit)?.factor ?? 1, parseUnit(plot.y.shown_unit)?.factor ?? 1];
   const top = plot.marks.length > 0 ? 22 : 8;
   const bottom = height - 20;

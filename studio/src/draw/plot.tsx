@@ -11,7 +11,7 @@ interface PlotProps {
   plot: ShownPlot;
   title: string;
   /** Height of the curves [px]. */
-  height?: number;
+  height?: number | undefined;
   /** Ranges that are kept while the data change; without them those of the data. */
   ranges?: Ranges | undefined;
 }
@@ -29,6 +29,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     [plot, shown],
   );
   const angle = isAngle(plot.x.shown_unit);
+  const whole = useMemo(() => plot.curves.every((curve) => curve.x.every((x) => Number.isInteger(x))), [plot]);
   const inside = (value: number | null) => (value === null ? null : within(value, shown.x.low, shown.x.high, angle));
   const over = useCanvas(
     (context, width, high) => {
@@ -43,7 +44,8 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
   const point = (event: PointerEvent) => {
     if (layout.current === null) return;
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
-    moveTo(cursor, fromX(layout.current, event.clientX - box.left));
+    const to = fromX(layout.current, event.clientX - box.left);
+    moveTo(cursor, whole ? Math.round(to) : to);
   };
   const at = inside(cursor.at.value);
   const reading = at === null ? "" : formatQuantity(at, plot.x.shown_unit);
@@ -66,7 +68,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
         role="slider"
         tabIndex={0}
         aria-label={title}
-        aria-description={t("ui.plotKeys")}
+        aria-description={t("figure.plotKeys")}
         aria-valuemin={shown.x.low}
         aria-valuemax={shown.x.high}
         aria-valuenow={at ?? shown.x.low}
@@ -110,19 +112,14 @@ interface LegendProps {
 
 function PlotLegend({ plot, at, values, reading }: LegendProps) {
   const several = plot.curves.length > 1;
-  const unit = shownUnit(plot.y.shown_unit);
   return (
     <ul class="fig-legend">
-      {at !== null && <li class="fig-at">{t("ui.at", { at: reading })}</li>}
+      {at !== null && <li class="fig-at">{t("figure.at", { at: reading })}</li>}
       {plot.curves.map((curve, k) => (
         <li key={k}>
           <Swatch look={curve.look} dashed={curve.dashed} marked={several} />
-          <span>{curve.label}</span>
-          {at !== null && (
-            <b>
-              {shownValue(values[k] ?? null, plot.y.shown_unit)} {unit}
-            </b>
-          )}
+          <span>{curve.label || plot.y.label}</span>
+          {at !== null && <b>{values[k] == null ? "–" : formatQuantity(values[k], plot.y.shown_unit)}</b>}
         </li>
       ))}
     </ul>

@@ -8,7 +8,6 @@ import { Player } from "./player";
 import { Plot } from "./plot";
 import { Gantt, StackedBars } from "./spans";
 import { Timing } from "./timing";
-import "./draw.css";
 
 /** A figure with its title and note. */
 export function Figure({ figure, autoplay = false }: { figure: ShownFigure; autoplay?: boolean }) {
@@ -16,17 +15,25 @@ export function Figure({ figure, autoplay = false }: { figure: ShownFigure; auto
   return (
     <figure class={`figure${wide ? " wide" : ""}`}>
       <figcaption>{figure.title}</figcaption>
-      <Body figure={figure} autoplay={autoplay} />
+      <FigureBody figure={figure} autoplay={autoplay} />
       {figure.note && <p class="ui-help">{figure.note}</p>}
     </figure>
   );
 }
 
-function Body({ figure, autoplay }: { figure: ShownFigure; autoplay: boolean }) {
+interface BodyProps {
+  figure: ShownFigure;
+  autoplay: boolean;
+  /** Height of curves and drawings [px]. */
+  height?: number | undefined;
+}
+
+/** A figure without title and note. */
+export function FigureBody({ figure, autoplay, height }: BodyProps) {
   const { title, plot, drawing, animation, timing, gantt, bars } = figure;
-  if (plot) return <Plot plot={plot} title={title} />;
-  if (drawing) return <Drawing drawing={drawing} title={title} />;
-  if (animation) return <Player animation={animation} title={title} autoplay={autoplay} />;
+  if (plot) return <Plot plot={plot} title={title} height={height} />;
+  if (drawing) return <Drawing drawing={drawing} title={title} height={height} />;
+  if (animation) return <Player animation={animation} title={title} autoplay={autoplay} height={height} />;
   if (timing) return <Timing timing={timing} title={title} />;
   if (gantt) return <Gantt gantt={gantt} title={title} />;
   return bars ? <StackedBars bars={bars} title={title} /> : null;

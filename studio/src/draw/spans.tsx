@@ -155,7 +155,7 @@ export function StackedBars({ bars, title }: { bars: ShownBars; title: string })
   const columns = [
     { heading: "" },
     ...bars.kinds.map((heading) => ({ heading, unit: bars.x.shown_unit })),
-    { heading: t("ui.total"), unit: bars.x.shown_unit },
+    { heading: t("figure.total"), unit: bars.x.shown_unit },
   ];
   const rows = bars.bars.map((name, row) => [name, ...(bars.values[row] ?? []), totals[row] ?? 0]);
   return (
@@ -192,7 +192,7 @@ export function StackedBars({ bars, title }: { bars: ShownBars; title: string })
       </svg>
       <Kinds kinds={bars.kinds} looks={bars.looks} used={used} pale={0} />
       <details class="ui-details" id={id}>
-        <summary>{t("ui.values")}</summary>
+        <summary>{t("figure.values")}</summary>
         <Table label={title} columns={columns} rows={rows} />
       </details>
     </div>

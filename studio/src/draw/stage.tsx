@@ -27,7 +27,7 @@ export function Stage({ label, height, view, children }: StageProps) {
         role="application"
         tabIndex={0}
         aria-label={label}
-        aria-description={t("ui.drawingKeys")}
+        aria-description={t("figure.drawingKeys")}
         {...handlers}
       >
         {children}
@@ -36,20 +36,20 @@ export function Stage({ label, height, view, children }: StageProps) {
         <IconButton
           icon="plus"
           size="small"
-          label={t("ui.zoomIn")}
+          label={t("figure.zoomIn")}
           onClick={() => (view.value = zoomed(view.peek(), 1.5))}
         />
         <IconButton
           icon="minus"
           size="small"
-          label={t("ui.zoomOut")}
+          label={t("figure.zoomOut")}
           disabled={view.value.zoom === 1}
           onClick={() => (view.value = zoomed(view.peek(), 1 / 1.5))}
         />
         <IconButton
           icon="fit"
           size="small"
-          label={t("ui.zoomFit")}
+          label={t("figure.zoomFit")}
           disabled={whole}
           onClick={() => (view.value = WHOLE)}
         />

@@ -1,8 +1,8 @@
-import { useMemo } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import { t } from "../text";
-import { formatQuantity } from "../ui";
-import { keyed, moveTo, useCursor, valueAt, within } from "./cursor";
-import type { ShownLane, ShownTiming } from "./figures";
+import { Button, formatQuantity, Table } from "../ui";
+import { greatestOf, keyed, moveTo, quiet, useCursor, valueAt, within } from "./cursor";
+import type { Numbers, ShownLane, ShownTiming } from "./figures";
 import { cssColour } from "./looks";
 import { shownValue } from "./plot-paint";
 import { useWidth } from "./width";
@@ -28,7 +28,12 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
   const left = Math.min(Math.max(...names.map((name) => name.length), 6) * 6.6 + 14, width * 0.36);
   const frame: Frame = { left, width: width - left - 14, x: (angle) => left + (angle / TURN) * (width - left - 14) };
   const bottom = TOP + timing.lanes.length * LANE;
-  const shown = useMemo(() => <Lanes timing={timing} frame={frame} bottom={bottom} />, [timing, width]);
+  const [order, setOrder] = useState(0);
+  const known = timing.lanes.some((lane) => lane.motion.length > 0);
+  const shown = useMemo(
+    () => <Lanes timing={timing} frame={frame} bottom={bottom} order={order} />,
+    [timing, width, order],
+  );
   const point = (event: PointerEvent) => {
     const rectangle = (event.currentTarget as Element).getBoundingClientRect();
     const share = ((event.clientX - rectangle.left) / rectangle.width) * width;
@@ -42,7 +47,7 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
         class="fig-field"
         tabIndex={0}
         aria-label={title}
-        aria-description={t("ui.plotKeys")}
+        aria-description={t("figure.plotKeys")}
         aria-valuemin={0}
         aria-valuemax={TURN}
         aria-valuenow={at ?? 0}
@@ -66,10 +71,58 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
         </svg>
       </div>
       <p class="fig-legend">
-        <span class="fig-at">{at === null ? "" : t("ui.at", { at: reading })}</span>
+        <span class="fig-at">{at === null ? "" : t("figure.at", { at: reading })}</span>
       </p>
+      {known && <Orders order={order} onChange={setOrder} />}
+      {known && <Motions timing={timing} at={at ?? 0} />}
     </div>
   );
+}
+
+const RATES = [
+  ["position", ""],
+  ["velocity", "/s"],
+  ["acceleration", "/s^2"],
+] as const;
+
+/** What the curves of the lanes show. */
+function Orders({ order, onChange }: { order: number; onChange: (order: number) => void }) {
+  return (
+    <div class="fig-orders" role="group" aria-label={t("figure.curves")}>
+      {RATES.map(([name], of) => (
+        <Button key={name} size="small" pressed={of === order} onClick={() => onChange(of)}>
+          {t(`figure.${name}`)}
+        </Button>
+      ))}
+    </div>
+  );
+}
+
+/** What each track does at an angle. */
+function Motions({ timing, at }: { timing: ShownTiming; at: number }) {
+  const columns = [
+    { heading: t("figure.track") },
+    { heading: t("figure.motion") },
+    ...RATES.map(([name]) => ({ heading: t(`figure.${name}`) })),
+  ];
+  const rows = timing.lanes.map((lane) => {
+    const move = lane.moves.find(({ start, end }) => at >= start && at < end);
+    const values = RATES.map(([, per], of) => {
+      const curve = lane.motion[of];
+      const value = curve === undefined ? null : valueAt(lane.angle, curve, at);
+      return value === null ? "" : formatQuantity(quiet(value, greatestOf([curve ?? []])), `${lane.shown_unit}${per}`);
+    });
+    return [lane.name, move === undefined ? t("figure.dwell") : `${move.name} · ${move.law}`, ...values];
+  });
+  return <Table label={timing.drive.label} columns={columns} rows={rows} />;
+}
+
+/** The heights of a lane's curve, 0 to 1: its position, or a derivative about the middle. */
+function heights(lane: ShownLane, order: number): Numbers {
+  const rates = order === 0 ? undefined : lane.motion[order];
+  if (rates === undefined) return lane.position;
+  const most = greatestOf([rates]) || 1;
+  return rates.map((rate) => (rate === null ? null : 0.5 + (0.5 * rate) / most));
 }
 
 function spoken(timing: ShownTiming, at: number): string {
@@ -78,7 +131,14 @@ function spoken(timing: ShownTiming, at: number): string {
     .join(", ");
 }
 
-function Lanes({ timing, frame, bottom }: { timing: ShownTiming; frame: Frame; bottom: number }) {
+interface LanesProps {
+  timing: ShownTiming;
+  frame: Frame;
+  bottom: number;
+  order: number;
+}
+
+function Lanes({ timing, frame, bottom, order }: LanesProps) {
   const angles = Array.from({ length: 9 }, (_, k) => (k / 8) * TURN).filter((_, k) => frame.width > 420 || k % 2 === 0);
   return (
     <>
@@ -94,7 +154,7 @@ function Lanes({ timing, frame, bottom }: { timing: ShownTiming; frame: Frame; b
         </g>
       ))}
       {timing.lanes.map((lane, row) => (
-        <LaneShown key={lane.name} lane={lane} floor={TOP + (row + 1) * LANE - 12} frame={frame} />
+        <LaneShown key={lane.name} lane={lane} order={order} floor={TOP + (row + 1) * LANE - 12} frame={frame} />
       ))}
       {timing.links.map((link, k) => {
         const at = ([lane, angle]: [number, number]) =>
@@ -115,9 +175,17 @@ function Lanes({ timing, frame, bottom }: { timing: ShownTiming; frame: Frame; b
   );
 }
 
-function LaneShown({ lane, floor, frame }: { lane: ShownLane; floor: number; frame: Frame }) {
+interface LaneProps {
+  lane: ShownLane;
+  order: number;
+  floor: number;
+  frame: Frame;
+}
+
+function LaneShown({ lane, order, floor, frame }: LaneProps) {
+  const shares = heights(lane, order);
   const points = lane.angle
-    .map((angle, k) => [angle, lane.position[k]])
+    .map((angle, k) => [angle, shares[k]])
     .filter((point): point is [number, number] => point[0] != null && point[1] != null)
     .map(([angle, position]) => `${frame.x(angle).toFixed(1)} ${(floor - STROKE * position).toFixed(1)}`);
   const path = points.length > 0 ? `M${points.join("L")}` : "";
@@ -138,7 +206,7 @@ function LaneShown({ lane, floor, frame }: { lane: ShownLane; floor: number; fra
         </rect>
       ))}
       <line class="axis" x1={frame.left} x2={frame.left + frame.width} y1={floor} y2={floor} />
-      {path && (
+      {path && order === 0 && (
         <path
           d={`${path}L${ends.last} ${floor}L${ends.first} ${floor}Z`}
           fill={cssColour(lane.look)}

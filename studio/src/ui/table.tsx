@@ -58,7 +58,7 @@ export function Table({ label, columns, rows, height, empty, captioned = false }
                   <button
                     type="button"
                     class="ui-sort"
-                    title={t("ui.sortBy", { column: column.heading })}
+                    title={t("figure.sortBy", { column: column.heading })}
                     onClick={() => sort(at)}
                   >
                     {headingText(column)}
@@ -106,7 +106,7 @@ function headingText(column: TableColumn): string {
 /** A cell as it is shown: SI numbers in the unit of the column. */
 function cellText(cell: Cell, column: TableColumn): string {
   if (cell === null) return "–";
-  if (typeof cell === "boolean") return cell ? t("ui.yes") : t("ui.no");
+  if (typeof cell === "boolean") return cell ? t("figure.yes") : t("figure.no");
   return typeof cell === "string" ? cell : formatNumber(fromSi(cell, column.unit ?? ""), column.digits ?? 4);
 }
 

@@ -27,11 +27,13 @@ from ilmek.cams.laws import (
 )
 from ilmek.cams.laws.law import NONE, REST, Law, LawFamily, Parameters, fixed
 from ilmek.errors import ParameterError
+from ilmek.plugins import Registry
 from ilmek.records import shown_value
 
 __all__ = ["FAMILIES", "LAWS", "REST", "SMOOTH_LAWS", "Law", "Parameters", "law_of"]
 
-FAMILIES: Mapping[str, LawFamily] = MappingProxyType(
+FAMILIES = Registry(
+    "ilmek.motion_laws",
     {
         "uniform": fixed(uniform.LAW),
         "modified-uniform": modified_uniform.FAMILY,
@@ -47,7 +49,8 @@ FAMILIES: Mapping[str, LawFamily] = MappingProxyType(
         "spline": spline.FAMILY,
         "polynomial": polynomial.FAMILY,
         "s-curve": s_curve.FAMILY,
-    }
+    },
+    LawFamily,
 )
 """The families of laws by name: how a law is built and which parameters it takes."""
 
@@ -114,8 +117,8 @@ def _perhaps(name: str, known: Mapping[str, object]) -> str:
     return f"perhaps {near[0]!r}?" if near else ""
 
 
-LAWS: Mapping[str, Law] = MappingProxyType({name: law_of(name) for name in FAMILIES})
-"""Each law with its default parameters."""
+LAWS: Mapping[str, Law] = MappingProxyType({name: law_of(name) for name in FAMILIES.own})
+"""Each own law with its default parameters."""
 
 SMOOTH_LAWS: tuple[str, ...] = tuple(name for name, law in LAWS.items() if math.isfinite(law.acceleration_peak))
 """Names of the laws of finite acceleration: those that a follower with a mass can follow."""

@@ -15,6 +15,7 @@ from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.png import begins_chart_png, read_chart_png, write_chart_png
 from ilmek.io.chart.printing import PLAIN, Printing
 from ilmek.io.regular_file import open_regular
+from ilmek.plugins import Registry
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -94,60 +95,63 @@ def _read_png(
     return read_chart_png(path, progress), ()
 
 
-FORMATS: dict[str, ChartFormat] = {
-    row.name: row
-    for row in (
-        ChartFormat(
-            "png",
-            "the knot chart, one pixel one knot; weave and chart read it again",
-            "one pixel a knot, with all facts of the chart",
-            write_chart_png,
-            begins_chart_png,
-            _read_png,
-            always=True,
-        ),
-        ChartFormat(
-            "bmp",
-            "the knot chart as indexed BMP, for carpet CAD programs",
-            "an indexed BMP of one pixel a knot, for carpet CAD programs",
-            write_chart_bmp,
-        ),
-        ChartFormat(
-            "oxs",
-            "the knot chart for cross-stitch programs; weave and chart read it again",
-            "the open XML chart of cross-stitch programs",
-            write_chart_oxs,
-            begins_oxs,
-            read_chart_oxs,
-            picture=False,
-            most=MOST_OXS_KNOTS,
-        ),
-        ChartFormat(
-            "pdf",
-            "the knot chart to weave from, with symbols and row numbers",
-            "sheets with symbols and row numbers",
-            write_chart_pdf,
-            picture=False,
-            printed=True,
-        ),
-    )
-}
+FORMATS = Registry(
+    "ilmek.chart_formats",
+    {
+        row.name: row
+        for row in (
+            ChartFormat(
+                "png",
+                "the knot chart, one pixel one knot; weave and chart read it again",
+                "one pixel a knot, with all facts of the chart",
+                write_chart_png,
+                begins_chart_png,
+                _read_png,
+                always=True,
+            ),
+            ChartFormat(
+                "bmp",
+                "the knot chart as indexed BMP, for carpet CAD programs",
+                "an indexed BMP of one pixel a knot, for carpet CAD programs",
+                write_chart_bmp,
+            ),
+            ChartFormat(
+                "oxs",
+                "the knot chart for cross-stitch programs; weave and chart read it again",
+                "the open XML chart of cross-stitch programs",
+                write_chart_oxs,
+                begins_oxs,
+                read_chart_oxs,
+                picture=False,
+                most=MOST_OXS_KNOTS,
+            ),
+            ChartFormat(
+                "pdf",
+                "the knot chart to weave from, with symbols and row numbers",
+                "sheets with symbols and row numbers",
+                write_chart_pdf,
+                picture=False,
+                printed=True,
+            ),
+        )
+    },
+    ChartFormat,
+)
 """Formats by name."""
 
 
 def format_of(path: Path) -> ChartFormat | None:
     """The format of a chart in a file; None: it is none, or cannot be read."""
-    readable = [row for row in FORMATS.values() if row.read is not None]
-    named = next((row for row in readable if not row.picture and path.suffix.lower() == row.suffix), None)
-    if named is not None:
-        return named
+    for row in FORMATS.values():
+        if row.read is not None and not row.picture and path.suffix.lower() == row.suffix:
+            return row
     try:
         file, _ = open_regular(path)
         with file:
             begin = file.read(_BEGIN)
     except OSError:
         return None
-    return next((row for row in readable if row.begins(begin)), None)
+    return next((row for row in FORMATS.values() if row.read is not None and row.begins(begin)), None)
 
 
 def read_chart(

@@ -17,7 +17,7 @@ from PIL import Image, UnidentifiedImageError
 from PIL.PngImagePlugin import PngInfo
 
 from ilmek.arrays import Indices
-from ilmek.carpet.cells import Cells
+from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import MOST_KNOTS
@@ -117,7 +117,7 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
     return chart
 
 
-def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn], cells: Cells | None) -> None:
+def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn], cells: CellMap | None) -> None:
     """Raise DamagedError unless every knot has a yarn, of the colour that the palette has for it."""
     if (knots if cells is None else knots[cells.tied]).max() >= len(yarns):
         raise DamagedError("a knot has no yarn")

@@ -1,14 +1,14 @@
 """Controllers for which the program is written: how each counts addresses, and in which files it takes a program."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 from ilmek.io.plc.io_list import AddressStyle, IoRow, io_csv, io_rows
 from ilmek.io.plc.main_program import main_program
 from ilmek.io.plc.plcopen_xml import plcopen_xml
 from ilmek.io.plc.scl import scl_source
 from ilmek.io.plc.units import PlcProject
+from ilmek.plugins import Registry
 
 Writer = Callable[[PlcProject, list[IoRow]], bytes]
 
@@ -59,7 +59,8 @@ def _scl(project: PlcProject, rows: list[IoRow]) -> bytes:
 
 _IEC = (("loom.st", _text), ("loom.xml", _xml))
 
-TARGETS: Mapping[str, PlcTarget] = MappingProxyType(
+TARGETS = Registry(
+    "ilmek.controllers",
     {
         "codesys": PlcTarget(
             "CODESYS 3", AddressStyle(by_bytes=False), _IEC,
@@ -71,6 +72,7 @@ TARGETS: Mapping[str, PlcTarget] = MappingProxyType(
             'ns=3;s="LoomData".{}', '"', signals=False,
         ),
         "openplc": PlcTarget("OpenPLC", AddressStyle(by_bytes=False), (("loom.st", _text),)),
-    }
+    },
+    PlcTarget,
 )  # fmt: skip
 """Targets by name."""

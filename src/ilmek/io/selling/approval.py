@@ -1,10 +1,11 @@
 """Approval sheet of an order as PDF: each carpet whole, with its colour card, a part at true size, the strike-off."""
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from reportlab.lib.units import cm
 
-from ilmek.carpet.chart import Chart
+from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file
 from ilmek.io.chart.symbols import SIGNS, symbols
@@ -21,7 +22,7 @@ _CARD = (
     PageColumn(Sentence("order.knots"), 420.0, end=True),
     PageColumn(Sentence("order.lots"), ROOM, end=True),
 )
-_SIGNED = ("approved", "changes", "signed")
+_SIGNED = ("order.approved", "order.changes", "order.signed")
 
 
 def write_approval(path: Path, offer: Offer) -> None:
@@ -46,32 +47,48 @@ def _whole(page: OrderPage, carpet: OfferedCarpet) -> None:
     page.facts(carpet_facts(carpet), LEFT + wide + 14.0, 66.0)
     page.y -= 20.0
     for key in _SIGNED:
-        page.write(LEFT + wide + 14.0, page.y, Sentence(f"order.{key}"), 9)
+        page.write(LEFT + wide + 14.0, page.y, Sentence(key), 9)
         page.rule(page.y - 22.0, LEFT + wide + 14.0, ROOM - wide - 14.0)
         page.y -= 44.0
     page.y = top - high - 12.0
-    draw_card(page, carpet.chart, [str(need.lots) for need in carpet.bill.pile])
-
-
-def draw_card(page: OrderPage, chart: Chart, lots: list[str]) -> None:
-    """The colour card of a chart: swatch, symbol, number of the shelf, name, sRGB, knots, dye lots of each yarn."""
-    signs = symbols(chart.yarns)
+    chart, signs = carpet.chart, symbols(carpet.chart.yarns)
+    lines = [
+        (chart.yarns[index], signs[index], f"{chart.tied.of(index):,}".replace(",", "\u202f"), str(need.lots))
+        for index, need in zip(chart.used, carpet.bill.pile, strict=True)
+    ]
     page.heading(Sentence("order.card"), 11.0)
-    page.table(_CARD, ())
+    _draw_card(page, _CARD, lines)
+
+
+def write_card(path: Path, yarns: Sequence[Yarn], lots: Mapping[str, str], reference: str) -> None:
+    """Write the colour card of a shelf in the language that is spoken; lots: those in stock. Raises OSError."""
+    title = Sentence("order.card")
+    columns = (*_CARD[:4], PageColumn("", 420.0, end=True), PageColumn(Sentence("order.lot"), ROOM, end=True))
+    with printed_file(path, title) as canvas:
+        page = OrderPage(canvas, title, reference)
+        page.heading(title, 15.0)
+        signs = symbols(yarns)
+        lines = [(yarn, sign, "", lots.get(yarn.name, "–")) for yarn, sign in zip(yarns, signs, strict=True)]
+        _draw_card(page, columns, lines)
+        page.end()
+
+
+def _draw_card(page: OrderPage, columns: Sequence[PageColumn], lines: Sequence[tuple[Yarn, str, str, str]]) -> None:
+    """Swatch, symbol, number of the shelf, name, sRGB, knots, dye lots of each yarn."""
+    page.table(columns, ())
     page.y += 4.0
-    for index, own in zip(chart.used, lots, strict=True):
+    for yarn, sign, knots, own in lines:
         if page.y - 14.0 < LOW:
             page.begin()
-            page.table(_CARD, ())
+            page.table(columns, ())
             page.y += 4.0
-        yarn = chart.yarns[index]
         page.swatch(LEFT, page.y - 1.5, yarn.srgb, (26.0, 10.0))
         page.canvas.setFillGray(0.1)
         page.canvas.setFont(SIGNS, 9)
-        page.canvas.draw_sign(page.canvas.side(LEFT + 44.0), page.y, signs[index])
+        page.canvas.draw_sign(page.canvas.side(LEFT + 44.0), page.y, sign)
         name = cut_line(page.canvas.name_of(yarn.name), 8.5, 170.0)
-        values = (str(yarn.number or "–"), name, yarn.hex, f"{chart.tied.of(index):,}".replace(",", "\u202f"), own)
-        for column, text in zip(_CARD[1:], values, strict=True):
+        values = (str(yarn.number or "–"), name, yarn.hex, knots, own)
+        for column, text in zip(columns[1:], values, strict=True):
             page.write(LEFT + column.x, page.y, text, 8.5, end=column.end)
         page.y -= 14.0
 

@@ -5,6 +5,10 @@ The drawing has the proportions of the carpet on the loom; the warps beyond the 
 
 from pathlib import Path
 
+import numpy as np
+from PIL import Image
+from reportlab.lib.utils import ImageReader
+
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import TENS, Mounting
 from ilmek.io.chart.legend import mounting_lines
@@ -17,6 +21,9 @@ _HIGH, _WIDE = 400.0, 330.0
 """Largest size of the drawn pile [pt]."""
 
 _BEAM, _ENDS, _SELVEDGE = 16.0, 26.0, 6.0
+_PIXELS, _PALE = 400, 0.8
+"""Pixels of the pale chart along its longer side, and the share of white in it."""
+
 _APART = 24.0
 """Least distance of two numbers at the marks [pt]."""
 
@@ -54,21 +61,28 @@ def _draw(page: OrderPage, chart: Chart, made: Mounting) -> None:
     for warp in range(warps + 1):
         x = left - _SELVEDGE + (wide + 2 * _SELVEDGE) * warp / warps
         canvas.line(x, low - _ENDS, x, top + _ENDS)
-    for y, key in ((top + _ENDS, "warp-beam"), (low - _ENDS - _BEAM, "cloth-beam")):
+    for y, key in ((top + _ENDS, "order.warp-beam"), (low - _ENDS - _BEAM, "order.cloth-beam")):
         canvas.setFillGray(0.85)
         canvas.setStrokeGray(0.3)
         canvas.setLineWidth(0.8)
         canvas.roundRect(left - 40.0, y, wide + 80.0, _BEAM, 5.0, stroke=1, fill=1)
-        _centred(page, left + wide / 2, y + 4.5, Sentence(f"order.{key}"))
-    canvas.setFillColorRGB(0.96, 0.94, 0.89)
+        _centred(page, left + wide / 2, y + 4.5, Sentence(key))
+    canvas.drawImage(ImageReader(_pale(chart)), left, low, wide, long)
     canvas.setLineWidth(1.0)
-    canvas.rect(left, low, wide, long, stroke=1, fill=1)
+    canvas.rect(left, low, wide, long, stroke=1, fill=0)
     canvas.setFillGray(0.72)
     for x in (left - _SELVEDGE, left + wide):
         canvas.rect(x, low, _SELVEDGE, long, stroke=1, fill=1)
     _marks(page, chart, made, (left, low, wide, long))
     _centred(page, left + wide / 2, low + 8.0, Sentence("order.begin-row"))
     page.y = low - _ENDS - _BEAM - 8.0
+
+
+def _pale(chart: Chart) -> Image.Image:
+    """The chart, small and pale, to lie below marks and words."""
+    picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.shades], dtype=np.uint8)[chart.shaded])
+    small = picture.reduce(max(1, max(picture.size) // _PIXELS))
+    return Image.blend(small, Image.new("RGB", small.size, (255, 255, 255)), _PALE)
 
 
 def _centred(page: OrderPage, x: float, y: float, text: str, size: float = 8.0) -> None:

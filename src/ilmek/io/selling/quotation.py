@@ -37,7 +37,8 @@ def write_quotation(path: Path, offer: Offer) -> None:
 
 
 def money(amount: Decimal, currency: str = "") -> str:
-    """An amount as it is printed."""
+    """An amount as it is printed; the sign ﷼, which the fonts lack, in letters."""
+    currency = currency.replace("﷼", "ریال")
     return f"{amount:,.2f}{f' {currency}' if currency else ''}".replace(",", "\u202f")
 
 

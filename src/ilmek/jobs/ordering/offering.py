@@ -5,7 +5,7 @@ from decimal import Decimal
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.price_rules import WageRules, cents
-from ilmek.carpet.strike_off import SampleWindow, part_of, strike_off_window
+from ilmek.carpet.strike_off import part_of, strike_off_window
 from ilmek.errors import ParameterError
 from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
 from ilmek.jobs.chart import ChartResult
@@ -69,20 +69,11 @@ def shown_carpet(chart: Chart) -> ShownCarpet:
     """The pictures of a carpet."""
     drawn = draw_carpet(chart, longest=_LONGEST)
     sample = strike_off_window(chart)
-    part = part_of(chart, _detail(chart, sample))
+    part = part_of(chart, strike_off_window(chart, *_DETAIL))
     detail = draw_carpet(part, longest=_FINE).of_pile.image
     pile = (drawn.pile.left, drawn.pile.top, drawn.pile.width, drawn.pile.height)
     room = draw_room(drawn.image, *shown_size(chart.size))
     return ShownCarpet(drawn.image, pile, room, detail, (part.size.width, part.size.length), sample)
-
-
-def _detail(chart: Chart, sample: SampleWindow) -> SampleWindow:
-    """The part at true size: in the middle of the strike-off."""
-    columns = min(sample.columns, max(1, round(_DETAIL[0] * chart.quality.across)))
-    rows = min(sample.rows, max(1, round(_DETAIL[1] * chart.quality.along)))
-    return SampleWindow(
-        sample.top + (sample.rows - rows) // 2, sample.left + (sample.columns - columns) // 2, rows, columns
-    )
 
 
 def _line(plan: PlanResult, index: int, charted: ChartResult, shown: ShownCarpet) -> OrderLine:

@@ -2,6 +2,7 @@
 
 import hashlib
 from collections import defaultdict
+from collections.abc import Mapping
 from pathlib import Path
 
 from ilmek.carpet.bill import YarnNeed
@@ -19,10 +20,13 @@ def identity_of(reference: str, line: OrderLine, number: int) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
 
 
-def carpet_record(reference: str, line: OrderLine, number: int, woven: WovenRows, before: Path) -> JsonObject:
+def carpet_record(
+    reference: str, line: OrderLine, number: int, woven: WovenRows, *, before: Path, lots: Mapping[str, str]
+) -> JsonObject:
     """The record of a carpet, SI.
 
     number  of the carpet in its line, from 1      before  its record that is replaced, whose rows are kept
+    lots    the dye lot in stock of each yarn
     """
     chart, bill = line.charted.chart, line.charted.bill
     materials = CarpetYarnParams()
@@ -49,7 +53,7 @@ def carpet_record(reference: str, line: OrderLine, number: int, woven: WovenRows
             "along": chart.quality.along,
             "pile_height": line.charted.pile.pile_height,
         },
-        "yarn": [_yarn(need, materials) for need in bill.needs],
+        "yarn": [_yarn(need, materials, lots.get(need.bought or need.name, "")) for need in bill.needs],
         "fibre": [
             {"material": name, "mass": mass, "share": mass / sum(fibres.values())} for name, mass in fibres.items()
         ],
@@ -85,7 +89,8 @@ def _spun(needs: tuple[YarnNeed, ...], materials: CarpetYarnParams) -> dict[str,
     return spun
 
 
-def _yarn(need: YarnNeed, materials: CarpetYarnParams) -> JsonObject:
+def _yarn(need: YarnNeed, materials: CarpetYarnParams, lot: str) -> JsonObject:
+    """A yarn of the record; the first of its lots is that in stock, where it is known."""
     return {
         "name": need.bought or need.name,
         "use": need.use,
@@ -93,5 +98,8 @@ def _yarn(need: YarnNeed, materials: CarpetYarnParams) -> JsonObject:
         "count": need.count,
         "knots": need.knots,
         "mass": need.mass,
-        "lots": [{"lot": number, "from_row": row} for number, row in enumerate((1, *need.lot_rows), 1)],
+        "lots": [
+            {"lot": lot if lot and number == 1 else number, "from_row": row}
+            for number, row in enumerate((1, *need.lot_rows), 1)
+        ],
     }

@@ -1,6 +1,6 @@
 """The folder of a carpet for the workshop: chart, rows, yarn, mounting sheet, wages, strike-off, label and record."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,9 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.sentences import Sentence, in_language, translated
 
+_FIBRES = {"wool": "order.fibre-wool", "cotton": "order.fibre-cotton", "silk": "order.fibre-silk"}
+"""What the label names each material by."""
+
 MOUNTING, WAGES, STRIKE_OFF = "mounting.pdf", "wages.pdf", "strike-off"
 
 
@@ -35,6 +38,7 @@ class WorkshopTerms:
     """What the folders of all carpets have in common.
 
     language  of the weavers; customer_language: of the labels
+    lots      the dye lot in stock of each yarn
     key       that signs the records; None: they are not signed
     """
 
@@ -43,6 +47,7 @@ class WorkshopTerms:
     wage: WageRules | None
     language: str
     customer_language: str
+    lots: Mapping[str, str]
     key: Any = None
 
 
@@ -71,7 +76,7 @@ def write_workshop(
     for number in range(1, line.planned.entry.quantity + 1):
         file = f"record-{number}.json"
         rows = woven if number == 1 else NOT_BEGUN
-        found = carpet_record(terms.reference, line, number, rows, before / file)
+        found = carpet_record(terms.reference, line, number, rows, before=before / file, lots=terms.lots)
         made = signed_record(found, terms.key)
         (work / file).write_text(json_text(made), encoding="utf-8")
         label = f"label-{number}.pdf"
@@ -122,7 +127,7 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
 
 def _label_facts(found: JsonObject, line: OrderLine) -> list[tuple[str, str]]:
     shares = {part["material"]: f"{100 * part['share']:.0f} %" for part in found["fibre"]}
-    fibre = ", ".join(f"{translated(Sentence(f'order.fibre-{name}'))} {share}" for name, share in shares.items())
+    fibre = ", ".join(f"{translated(Sentence(_FIBRES[name]))} {share}" for name, share in shares.items())
     return [
         (Sentence("order.size"), size_of(line.charted.chart.size)),
         (Sentence("order.knots"), f"{found['design']['knots']:,}".replace(",", "\u202f")),

@@ -1,16 +1,13 @@
 """What a task of the studio gets beside its request, and what it may answer besides records."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 import msgspec
 
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import Sentence, translated
-
-T = TypeVar("T")
 
 PACKED = "application/vnd.ilmek.packed"
 """Media type of JSON with bytes behind it: see `packed`."""
@@ -47,12 +44,6 @@ class Context:
     def folder(self) -> Path:
         """The folder of the project."""
         return Path(self.project)
-
-
-def alike(kind: Callable[..., T], source: object, /, **more: object) -> T:
-    """A record of a class, with what a source has under the names of its fields, but for the fields that are given."""
-    names = (field.name for field in fields(kind) if field.name not in more and hasattr(source, field.name))  # type: ignore[arg-type]
-    return kind(**{name: getattr(source, name) for name in names}, **more)
 
 
 def text_of(value: object) -> str:

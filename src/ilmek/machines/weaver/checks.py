@@ -19,7 +19,7 @@ from ilmek.machines.weaver.limits import HeadLimits
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
-from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
+from ilmek.machines.weaver.parts import BEARING, LEAST_LIP, MOTOR, SHAFT, bearing_of, cam_id, case_plates, lip_of
 from ilmek.machines.weaver.return_springs import spring_id, stress_of
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.machines.weaver.stations import sheet
@@ -261,7 +261,16 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
         ).with_cure(
             "set a thicker weaver.shaft, or lighter tools", *((SHAFT, BEARING) if bearing_of(weaver) else (SHAFT,))
         ),
+        *_lip_check(weaver),
     )
+
+
+def _lip_check(weaver: Weaver) -> tuple[Check, ...]:
+    """Side plates deep enough for the bearings and for a lip behind them, which holds the cam shaft along its axis."""
+    if not case_plates(weaver):
+        return ()
+    lip = at_least("lip of a side plate behind its bearing", lip_of(weaver), LEAST_LIP, "mm", "assumed by this project")
+    return (lip.with_cure("set a thicker weaver.side_plate", *case_plates(weaver)),)
 
 
 def rounded(value: float, digits: int) -> float:

@@ -5,14 +5,13 @@ plate to side plate: gap and cam in turn, in the order of the stations, and a ga
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.cams.profile_tolerance import BAND, increment_tolerance
-from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
+from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, THIN_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.weaver.case import ALUMINIUM
@@ -38,8 +37,10 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-RETENTION = "both inner rings are bonded on the shaft, the right outer ring in its side plate; the left one slides"
-"""What holds the cam shaft along its axis: one bearing, in both directions."""
+LIP, LEAST_LIP, LIP_ROOM, AXIAL_PLAY = 1.5 * mm, 1 * mm, 3 * mm, 0.2 * mm
+"""Thickness of the lips of the side plates behind the bearings' outer rings, and the least one; by how much the bore of
+a lip is smaller than a ring; play of the cam shaft with its rings between the lips [m]; assumed by this project.
+"""
 
 LEAST_SPACER = 0.01 * mm
 """Length below which no ring between the cams is made [m]; assumed by this project."""
@@ -50,13 +51,14 @@ def cam_id(track: str) -> str:
     return part_id(f"{track.replace(' ', '-')}-cam")
 
 
-SHAFT, BEARING, SIDE_PLATE = part_id("cam-shaft"), part_id("bearing"), part_id("side-plate")
+SHAFT, BEARING = part_id("cam-shaft"), part_id("bearing")
+SIDE_PLATES = part_id("right-side-plate"), part_id("left-side-plate")
 MOTOR, TUBE = part_id("motor"), part_id("yarn-tube")
 
 
 def case_plates(weaver: Weaver) -> tuple[str, ...]:
-    """Id of the side plates, where the head has them."""
-    return (SIDE_PLATE,) if weaver.params.side_plate > 0 else ()
+    """Ids of the side plates, where the head has them."""
+    return SIDE_PLATES if weaver.params.side_plate > 0 else ()
 
 
 def bearing_of(weaver: Weaver) -> RollingBearing | None:
@@ -82,7 +84,7 @@ def _bearing_load(weaver: Weaver) -> float:
 
 
 def _deep_groove() -> Iterator[RollingBearing]:
-    return (row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE)
+    return (row for row in (*THIN_BEARINGS.values(), *ROLLING_BEARINGS.values()) if row.kind == DEEP_GROOVE)
 
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
@@ -92,23 +94,46 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     if plate > 0:
         middle = shape.body + (shape.size + flat) / 2 - shape.axis
         deep, high = shape.size.real - flat, shape.size.imag
-        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
+        bore = 0.0 if row is None or row.outer >= deep else row.outer
         eye = circle(guide_at(weaver) - shape.axis, STEM / 2)
-        outline = polygon(rectangle(deep, high).points + middle)
-        section = Profile(outline, (*hole, eye))
-        title, notes = "side plate of the head", (Sentence("sheet.bearing-bonded"),)
-        part = Part(SIDE_PLATE, title, "machined link", Prism(section, plate), ALUMINIUM, notes=notes)
-        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
+        outline, lip = polygon(rectangle(deep, high).points + middle), max(lip_of(weaver), 0.0) if bore else 0.0
+
+        for side, name in zip((-1, 1), SIDE_PLATES, strict=True):
+            eyes = (eye,) if side < 0 else ()  # the stem of the yarn's guide is in the right one
+            layers = (bore, plate - lip, -side * lip / 2), (bore - LIP_ROOM, lip, side * (plate - lip) / 2)
+            members = tuple(
+                Placed(
+                    Prism(Profile(outline, (*((circle(0j, diameter / 2),) if bore else ()), *eyes)), thick),
+                    (placement(z=z - thick / 2),),
+                )
+                for diameter, thick, z in layers
+                if thick > 0
+            )
+            title = f"{'right' if side < 0 else 'left'} side plate of the head"
+            part = Part(name, title, "machined link", Sum(members), ALUMINIUM, notes=_play_note())
+            yield Occurrence(part, (placement(z=side * (wide - plate) / 2),))
     if row is not None:
-        part = replace(catalogue.bearing(BEARING, "bearing of the head's cam shaft", row), fixing=RETENTION)
         face = wide / 2 - plate - _into_gap(weaver)
+        part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
 
 
+def _play_note() -> tuple[Sentence, ...]:
+    low, high = (in_mm(share * AXIAL_PLAY) for share in (0.5, 1.5))
+    return (Sentence("sheet.axial-play", low=low, high=high),)
+
+
+def lip_of(weaver: Weaver) -> float:
+    """Thickness of the lip of a side plate that is left behind its bearing [m]."""
+    row = bearing_of(weaver)
+    return 0.0 if row is None else weaver.params.side_plate + _into_gap(weaver) - row.width - AXIAL_PLAY / 2
+
+
 def _into_gap(weaver: Weaver) -> float:
-    """How far a bearing wider than its side plate stands into the gap before the first cam, at most half of it [m]."""
+    """How far a bearing before its side plate's lip stands into the gap to the first cam, at most half of it [m]."""
     row, params = bearing_of(weaver), weaver.params
-    return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
+    deep = 0.0 if row is None else row.width + AXIAL_PLAY / 2 + LIP
+    return min(max(deep - params.side_plate, 0.0), params.cam_gap / 2)
 
 
 def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
@@ -120,8 +145,7 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
     middle = Placed(grooved(params.shaft, 2 * half), (placement(z=-half),))
     title = "cam shaft of the head"
-    notes = (Sentence("sheet.rings-bonded"),)
-    yield Occurrence(Part(SHAFT, title, "turned part", Sum((*journals, middle)), STEEL, notes=notes))
+    yield Occurrence(Part(SHAFT, title, "turned part", Sum((*journals, middle)), STEEL, notes=_play_note()))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))

@@ -2,6 +2,7 @@
 import app from "./app";
 import carpet from "./carpet";
 import cyclogram from "./cyclogram";
+import figure from "./figure";
 import files from "./files";
 import linkage from "./linkage";
 import loom from "./loom";
@@ -10,4 +11,4 @@ import project from "./project";
 import synthesis from "./synthesis";
 import ui from "./ui";
 
-export const en = { app, carpet, cyclogram, files, linkage, loom, machine, project, synthesis, ui };
+export const en = { app, carpet, cyclogram, figure, files, linkage, loom, machine, project, synthesis, ui };

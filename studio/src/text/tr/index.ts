@@ -4,6 +4,7 @@ import type { Translation } from "../catalogue";
 import app from "./app";
 import carpet from "./carpet";
 import cyclogram from "./cyclogram";
+import figure from "./figure";
 import files from "./files";
 import linkage from "./linkage";
 import loom from "./loom";
@@ -12,4 +13,16 @@ import project from "./project";
 import synthesis from "./synthesis";
 import ui from "./ui";
 
-export const tr: Translation = { app, carpet, cyclogram, files, linkage, loom, machine, project, synthesis, ui };
+export const tr: Translation = {
+  app,
+  carpet,
+  cyclogram,
+  figure,
+  files,
+  linkage,
+  loom,
+  machine,
+  project,
+  synthesis,
+  ui,
+};

@@ -101,11 +101,11 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
         {chart !== null && <CompareLine model={model} />}
         {chart !== null && <BorderHandles model={model} grid={chart.grid} view={view.value} size={size.value} />}
         <div class="carpet-zoom">
-          <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => zoom(ZOOM)} />
-          <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
+          <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => zoom(ZOOM)} />
+          <IconButton icon="minus" label={t("figure.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
           <IconButton
             icon="fit"
-            label={t("ui.zoomFit")}
+            label={t("figure.zoomFit")}
             onClick={() => {
               if (chart !== null) view.value = wholeView(chart.grid, size.peek());
             }}

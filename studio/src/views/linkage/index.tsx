@@ -86,9 +86,9 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
             {t("linkage.keys")}
           </p>
           <div class="linkage-zoom">
-            <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => pointer.zoom(1.25)} />
-            <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => pointer.zoom(0.8)} />
-            <IconButton icon="fit" label={t("ui.zoomFit")} onClick={() => pointer.fit()} />
+            <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => pointer.zoom(1.25)} />
+            <IconButton icon="minus" label={t("figure.zoomOut")} onClick={() => pointer.zoom(0.8)} />
+            <IconButton icon="fit" label={t("figure.zoomFit")} onClick={() => pointer.fit()} />
           </div>
           <TypedSpot tools={tools} onDone={focus} />
           <NextStep editor={editor} />
@@ -163,7 +163,7 @@ function Player({ editor }: { editor: Editor }) {
     <div class="linkage-player">
       <IconButton
         icon={playing ? "pause" : "play"}
-        label={t(playing ? "ui.pause" : "ui.play")}
+        label={t(playing ? "figure.pause" : "figure.play")}
         disabled={!motion}
         onClick={() => {
           editor.isPlaying.value = !playing;

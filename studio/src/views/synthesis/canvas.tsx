@@ -132,11 +132,15 @@ export function Canvas(props: CanvasProps) {
         <Handles {...props} camera={camera} />
       </svg>
       <div class="synthesis-zoom">
-        <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => setCamera(zoomed(camera, 1.3, middle))} />
-        <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => setCamera(zoomed(camera, 1 / 1.3, middle))} />
+        <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => setCamera(zoomed(camera, 1.3, middle))} />
+        <IconButton
+          icon="minus"
+          label={t("figure.zoomOut")}
+          onClick={() => setCamera(zoomed(camera, 1 / 1.3, middle))}
+        />
         <IconButton
           icon="fit"
-          label={t("ui.zoomFit")}
+          label={t("figure.zoomFit")}
           onClick={() => setCamera(fitted(props.content, size, 44, props.stretched))}
         />
       </div>

@@ -12,7 +12,8 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.calling import count_text, row_steps
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_making import make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
@@ -30,7 +31,7 @@ from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.charting import file_key
 from ilmek.jobs.order import CarpetOrder, order_of_data
 from ilmek.jobs.recipe import picture_pixels
-from ilmek.jobs.studio.answers import Binary, Context, alike, packed
+from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.carpet.answers import (
     MOST_MERGED,
     AssignedColour,
@@ -58,6 +59,7 @@ from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.jobs.yarn_choice import assignment_results, proposed_shades
+from ilmek.records import alike
 from ilmek.sentences import changed
 
 MOST_SHADES = 60

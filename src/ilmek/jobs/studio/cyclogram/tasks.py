@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.cams.laws import FAMILIES
 from ilmek.io.cyclogram_file import cyclogram_data, cyclogram_of_data, cyclogram_toml, timed_data
 from ilmek.jobs.cyclogram import binding_cost, cyclograms_of, limit_checks, solve, timed
-from ilmek.jobs.studio.answers import Binary, Context, alike, packed
+from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.cyclogram.answers import (
     CyclogramSolution,
     CyclogramView,
@@ -24,7 +24,7 @@ from ilmek.jobs.studio.cyclogram.answers import (
     ShownTrack,
 )
 from ilmek.params import Setting
-from ilmek.records import JsonObject
+from ilmek.records import JsonObject, alike
 from ilmek.timing.cyclogram import (
     Cyclogram,
     Exclusion,

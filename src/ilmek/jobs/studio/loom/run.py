@@ -10,12 +10,12 @@ from ilmek.io.journal_folder import CHANNEL
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import FAST, FAST_COMMIT, FASTEST, RunOrder
-from ilmek.jobs.studio.answers import Context, alike
+from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.loom.scene import RECIPE, project_loom
 from ilmek.jobs.studio.project.folder import OWN
 from ilmek.loom.control.view import AlarmView, Answer, Snapshot
 from ilmek.loom.explicit import CompiledProgramme
-from ilmek.records import JsonObject
+from ilmek.records import JsonObject, alike
 from ilmek.units import BILLION
 
 COMMANDS = ("hold", "resume", "stop", "acknowledge", "yes", "no")

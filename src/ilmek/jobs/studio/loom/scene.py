@@ -14,7 +14,7 @@ from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
 from ilmek.jobs.loom_space import loom_scene, scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio.answers import Binary, Context, alike, packed
+from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.project.folder import ProjectFolder, digest_of, kind_of, read_bytes
 from ilmek.machines import automated_loom, hand_loom
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -22,6 +22,7 @@ from ilmek.machines.component import AnyComponent
 from ilmek.machines.hand_loom import HandLoom
 from ilmek.plane.contours import along
 from ilmek.progress import SILENT, Progress
+from ilmek.records import alike
 from ilmek.report import Contour, Plate, Report
 from ilmek.report.scene import Scene
 from ilmek.units import mm

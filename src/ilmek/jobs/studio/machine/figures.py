@@ -4,14 +4,14 @@ from dataclasses import dataclass, field
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.figures.answers import ShownFigure, ShownTable
-from ilmek.jobs.studio.figures.plain import shown_figures, shown_table
 from ilmek.jobs.studio.machine.view import designed
 from ilmek.jobs.studio.words import all_in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import AnyComponent, Child
 from ilmek.params import Setting
 from ilmek.report import Figure
+from ilmek.viz.plain.figures import shown_figures, shown_table
+from ilmek.viz.plain.records import ShownFigure, ShownTable
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,9 +8,10 @@ from ilmek.errors import ParameterError
 from ilmek.io.json_file import json_text
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.machines import machine_list
-from ilmek.jobs.studio.answers import Binary, Context, alike
+from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, overridden, reachable
+from ilmek.records import alike
 from ilmek.units import format_number, format_quantity, parse_unit, printed_unit
 
 KINDS = {float: "quantity", int: "count", bool: "flag", str: "text"}

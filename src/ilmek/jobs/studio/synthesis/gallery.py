@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.jobs.studio.answers import alike
 from ilmek.jobs.studio.synthesis.answers import (
     GeneratedFunction,
     LeftOutFourBar,
@@ -25,6 +24,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.function_four_bar import FunctionFourBar
 from ilmek.machines.motion_four_bar import MotionFourBar
+from ilmek.records import alike
 from ilmek.report import Json
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation
 from ilmek.synthesis.burmester.curve import CurveBranch

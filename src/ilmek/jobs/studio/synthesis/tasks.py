@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from ilmek.errors import ParameterError
 from ilmek.io.mechanism_file import mechanism_toml
-from ilmek.jobs.studio.answers import Context, alike
+from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.synthesis.answers import MechanismDocument, SynthesisAnswer
 from ilmek.jobs.studio.synthesis.gallery import (
     function_required,
@@ -21,7 +21,7 @@ from ilmek.jobs.studio.synthesis.task import is_exact
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.four_bar_figures import own_four_bar
 from ilmek.params import Params, Setting
-from ilmek.records import JsonObject
+from ilmek.records import JsonObject, alike
 from ilmek.synthesis.filters import JAM
 from ilmek.synthesis.four_bar import FourBar
 

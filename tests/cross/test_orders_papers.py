@@ -1,0 +1,55 @@
+"""Mounting sheet and wages in the languages of weavers, as another library reads them back."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pypdfium2
+import pytest
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.mounting import mounting
+from ilmek.carpet.price_rules import WageRules
+from ilmek.io.selling.mounting_sheet import write_mounting
+from ilmek.io.selling.wage_sheet import WageSheet, write_wages
+from ilmek.io.yarn_file import default_yarns
+from ilmek.sentences import LANGUAGES, WEAVERS, catalogue_of, in_language
+
+FOREIGN = [language for language in WEAVERS if language not in LANGUAGES]
+CHART = Chart(np.zeros((75, 50), np.uint8), default_yarns()[:2], "20x30cm", "25x25/dm", "symmetric")
+
+
+def bare(text: str) -> str:
+    """Without blanks and what a shaping leaves out."""
+    return re.sub(r"[\s\u200c\u202f\ufffe\u00a0]", "", text)
+
+
+def papers(language: str, folder: Path) -> list[str]:
+    rules = WageRules(3.2, 1000, 1, 0.02, 0.2, 25)
+    sheet = WageSheet(rules, "﷼", 75, 3750, 2, rules.payments([50] * 75, 2), 30)
+    with in_language(language):
+        write_mounting(folder / "mounting.pdf", "#1", CHART, mounting(CHART))
+        write_wages(folder / "wages.pdf", "#1", sheet)
+    return [
+        "\n".join(page.get_textpage().get_text_range() for page in pypdfium2.PdfDocument(folder / name))
+        for name in ("mounting.pdf", "wages.pdf")
+    ]
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_no_english_and_no_latin_digit_is_left(language: str, tmp_path: Path) -> None:
+    for text in papers(language, tmp_path):
+        assert not re.findall(r"[A-Za-z]{2,}", text)
+        assert not re.findall(r".*[0-9].*", text)
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_each_text_is_read_back_in_logical_order(language: str, tmp_path: Path) -> None:
+    shown, wages = (bare(text) for text in papers(language, tmp_path))
+    catalogue, digits = catalogue_of(language), str.maketrans("0123456789", WEAVERS[language].digits)
+    for key in ("mounting", "warp-beam", "cloth-beam", "begin-row", "size", "knot"):
+        assert bare(catalogue[f"order.{key}"].translate(digits)) in shown, key
+    for key in ("wages", "rate", "supplement", "wage", "advance", "due", "payments", "earned", "deducted", "paid"):
+        assert bare(catalogue[f"order.{key}"]) in wages, key
+    done = catalogue["order.woven-text"].format(done=30, rows=75).translate(digits)
+    assert all(bare(word) in wages for word in done.split())  # pdfium moves a number at the begin of a line
