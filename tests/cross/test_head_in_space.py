@@ -107,6 +107,7 @@ def test_no_part_of_a_head_is_through_another_over_a_knot(number: int) -> None:
                 )
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("number", range(len(LOOMS)))
 def test_something_moves_every_body_of_a_head_and_something_holds_it(number: int) -> None:
     """Each is held by a joint that is designed, on the head or on a body before it, and has a motion over the knot."""
@@ -143,6 +144,7 @@ def test_every_part_of_a_head_touches_the_others(number: int) -> None:
     assert {FACE, BRACKET} <= set(group.parts)
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("number", range(len(LOOMS)))
 def test_the_yarn_from_its_tube_to_the_eye_meets_no_part_of_the_head(number: int) -> None:
     """As a thin bar along its line, beside the parts through which it is led."""

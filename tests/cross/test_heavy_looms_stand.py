@@ -53,7 +53,7 @@ def standing_parts(made: LoomDesign) -> Tree:
     return whole.carrying(shafts.parent, stands, shafts.position)
 
 
-@pytest.mark.matrix(light=3)
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("number", range(len(LOOMS)))
 def test_nothing_that_stands_is_through_another(number: int) -> None:
     found = contacts(standing_parts(loom(number)))

@@ -24,6 +24,7 @@ def tree_of(name: str) -> Tree:
     return tree(default_design(name))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", NAMES)
 def test_the_file_of_a_machine_is_one_machine_in_all_poses(name: str) -> None:
     tree = tree_of(name)

@@ -16,6 +16,7 @@ from reportlab.pdfbase import pdfmetrics
 
 from ilmek import sentences
 from ilmek.carpet.bill import yarn_bill
+from ilmek.carpet.cells import CUT_AWAY, PILE, CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
@@ -36,22 +37,27 @@ from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.call import Calling
 from ilmek.sentences import LANGUAGES, WEAVERS, Sentence, catalogue_of, in_language, translated
 from ilmek.sentences.english import ENGLISH
+from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.weaver_english import NOUNS, WEAVER
 
 FOREIGN = [language for language in WEAVERS if language not in LANGUAGES]
 MARKS = [KnotMark(0, 0, HALF, 1), KnotMark(2, 4, JUFTI)]
-CODES = re.compile(r"(?<![A-Za-z])(AC?|B|C|L|R|jB?)(?![A-Za-z])")
-"""Symbols of yarns and of parts of cells, which are Latin in every language."""
+CODES = re.compile(r"(?<![A-Za-z])(AC?|B|C|L|R|jB?|strike-off\.pdf)(?![A-Za-z])")
+"""Symbols of yarns and of parts of cells, and the name of a file, which are Latin in every language."""
 
 
-def chart_of(rows: int, columns: int, yarns: int = 4, *, size: CarpetSize | None = None) -> Chart:
+def chart_of(
+    rows: int, columns: int, yarns: int = 4, *, size: CarpetSize | None = None, cells: CellMap | None = None
+) -> Chart:
     """A chart of diagonal stripes, with marks where it has four yarns."""
     size = size or CarpetSize(columns / 250, rows / 250)
     quality = Quality(columns / size.width, rows / size.length)
     named = (*default_yarns(), *(replace(default_yarns()[0], name=f"dark red {n}", number=None) for n in range(2, 60)))
     knots = np.indices((rows, columns)).sum(0) // (5 if yarns < 9 else 1) % yarns
-    marks = overlay_of(MARKS) if yarns == 4 else overlay_of([])
-    return Chart(knots, with_counts(named[:yarns], quality, "symmetric"), size, quality, "symmetric", overlay=marks)
+    marks = overlay_of(MARKS) if yarns == 4 and cells is None else overlay_of([])
+    return Chart(
+        knots, with_counts(named[:yarns], quality, "symmetric"), size, quality, "symmetric", overlay=marks, cells=cells
+    )
 
 
 CHARTS = [
@@ -62,6 +68,8 @@ CHARTS = [
     chart_of(30, 20, size=parse_size("seccade")),
     chart_of(9, 60, 60),  # a legend of two pages
 ]
+outside = np.hypot(*(np.indices((24, 24)) - 11.5)) > 12
+CHARTS.insert(1, chart_of(24, 24, cells=CellMap(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
 
 
 def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Path]:
@@ -73,7 +81,7 @@ def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Pat
             lambda: write_chart_pdf(file, chart, printing=printing),  # noqa: B023 - called at once
             lambda: write_wall_pdf(file, chart, printing=printing),  # noqa: B023
         ]
-        for direction in DIRECTIONS if chart.rows == 12 else ("both",):
+        for direction in DIRECTIONS if chart.rows in (12, 24) else ("both",):
             pages = len(list(colour_pages(chart, direction)))
             writers += [
                 lambda way=direction: write_rows_pdf(file, chart, way, printing=printing),  # type: ignore[misc] # noqa: B023
@@ -115,13 +123,13 @@ def test_the_papers_say_what_the_catalogues_have(
     with in_language("fa"):
         for split in ("runs", "colours"):
             header(CHARTS[1], split, "both")
-        for chart in CHARTS[1:2]:
+        for chart in CHARTS[1:3]:
             assert len(list(call_of(chart))) > 20
             print_rows(Calling(chart, "colours", "left"))
     capsys.readouterr()
     # Notes on a call are said on a terminal only.
     notes = {"call.again", "call.goes-on", "call.not-spoken"}
-    needed = recorded.said | notes | NOUNS.keys()
+    needed = recorded.said | notes | NOUNS.keys() | ORDER.keys()
     for language in FOREIGN:
         catalogue = catalogue_of(language)
         assert needed == catalogue.keys(), language

@@ -105,6 +105,7 @@ def gap_of_coupler(made: LoomDesign) -> float:
     )
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("settings", LOOMS, ids=str)
 def test_rocker_and_plate_clear_the_heads(settings: dict[str, str]) -> None:
     made = loom(tuple(settings.items()))

@@ -11,6 +11,7 @@ from typing import Any
 
 from ilmek.machines.automated_loom import MACHINE, LoomDesign
 from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.hand_loom import MACHINE as HAND_LOOM
 from ilmek.report import Report
 from ilmek.viz.page import machine_page
 
@@ -35,13 +36,16 @@ def loom_report(loom: LoomDesign) -> Report:
 
 @contextmanager
 def out_of_space() -> Iterator[None]:
-    """Looms whose parts are not compared in space, which takes most of the time of a design."""
-    assembly = MACHINE.assembly
-    object.__setattr__(MACHINE, "assembly", None)
+    """Looms whose parts are not compared in space, which takes most of the time of a design; nor for another beat."""
+    whole = {(loom, name): getattr(loom, name) for loom in (MACHINE, HAND_LOOM) for name in ("assembly", "with_room")}
+    for loom in (MACHINE, HAND_LOOM):
+        object.__setattr__(loom, "assembly", None)
+        object.__setattr__(loom, "with_room", lambda design, _: design)
     try:
         yield
     finally:
-        object.__setattr__(MACHINE, "assembly", assembly)
+        for (loom, name), value in whole.items():
+            object.__setattr__(loom, name, value)
 
 
 @cache

@@ -31,10 +31,16 @@ def not_in_space() -> Iterator[None]:
 
 
 @pytest.fixture
-def plain_page(monkeypatch: pytest.MonkeyPatch, not_in_space: None) -> None:
+def plain_loom_page(monkeypatch: pytest.MonkeyPatch, not_in_space: None) -> None:
+    """A title for loom.html, and no loom in space for it."""
+    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.loom_in_space", lambda *_: None)
+
+
+@pytest.fixture
+def plain_page(monkeypatch: pytest.MonkeyPatch, plain_loom_page: None) -> None:
     """Pages without figures, a small picture of the carpet, no loom in space: the true ones have tests of their own."""
-    for name in ("carpet_page", "loom_page"):
-        monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
     monkeypatch.setattr("ilmek.machines.component.made_figures", lambda *_: ())
     monkeypatch.setattr("ilmek.jobs.chart.draw_carpet", lambda *_, **__: DrawnCarpet(Image.new("RGB", (2, 2)), WHOLE))
 

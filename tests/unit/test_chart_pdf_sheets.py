@@ -44,7 +44,7 @@ def test_pages_and_titles(tmp_path: Path) -> None:
     assert (plan.sheet_columns, plan.sheet_rows, plan.count) == (40, 70, 4)
     assert len(reader.pages) == 2 + 4
     assert "Knot chart: seccade" in text_of(reader, 0)
-    assert "70 knots × 130 rows = 9\u202f100 knots in 5 colours on 4 sheets" in text_of(reader, 0)
+    assert "70 knots × 130 rows: 9\u202f100 knots in 5 colours on 4 sheets" in text_of(reader, 0)
     titles = [text_of(reader, page) for page in range(2, 6)]
     for number, title in enumerate(
         ("rows 1–70, knots 1–40", "rows 1–70, knots 41–70", "rows 71–130, knots 1–40", "rows 71–130, knots 41–70"), 1

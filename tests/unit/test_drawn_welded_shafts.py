@@ -23,7 +23,7 @@ def test_both_journals_of_a_welded_shaft_run_true_about_their_own_axis(machine: 
     assembly = assembly_of(machine, "cylinders")
     pieces = pieces_of_assembly(machine, assembly)
     _, tables = positions(machine, items_of(machine, assembly), welded_pieces(machine, assembly, pieces))
-    words = [str(text.text) for table in tables for text in table.texts]
+    words = [str(text.words) for table in tables for text in table.texts]
     axes = [re.search(r"([A-Z]): total run-out 0\.025 to ([A-Z])-([A-Z])", own) for own in words]
     found = [own.groups() for own in axes if own is not None]
     assert len(found) == 6  # two ends of three cylinders

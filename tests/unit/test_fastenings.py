@@ -158,7 +158,11 @@ CHOICES: dict[str, dict[str, str]] = {
 ALONE = [(name, {}) for name, machine in MACHINES.items() if machine.tree and name != "automated-loom"]
 
 
-@pytest.mark.parametrize(("name", "settings"), [*ALONE, *CHOICES.items()])
+DIRECT = "knotting-dyad", {"elbow_drive": "direct"}
+
+
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize(("name", "settings"), [*ALONE, *CHOICES.items(), DIRECT])
 def test_a_machine_alone_has_a_fastening_and_a_way_in_for_each_part(name: str, settings: dict[str, str]) -> None:
     machine = MACHINES[name]
     assert machine.tree is not None
@@ -171,6 +175,7 @@ def test_a_machine_alone_has_a_fastening_and_a_way_in_for_each_part(name: str, s
 OWN = sorted((ROOT / "examples").glob("*.toml")) + sorted((ROOT / "tests/reference/own_mechanisms").glob("*.toml"))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("file", [own for own in OWN if "[joints]" in own.read_text()], ids=lambda own: own.stem)
 def test_an_own_mechanism_has_a_fastening_and_a_way_in_for_each_part(file: Path) -> None:
     """Pins over carriages, thin plates, spacers between bushes, shapes that a bore would cut, keys at any angle."""

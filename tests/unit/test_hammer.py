@@ -2,16 +2,21 @@
 
 import functools
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from cloths import cloth
 from hypothesis import given
 from hypothesis import strategies as st
+from manifold3d import Manifold, Mesh
 
 from ilmek.errors import ParameterError
 from ilmek.machines.hammer import MACHINE, Hammer, HammerParams
+from ilmek.machines.hammer.comb import second_moment, slot_of
 from ilmek.machines.hammer.linkage import bracket
+from ilmek.machines.hammer.tree import tree
+from ilmek.part.tree import Occurrence
 from ilmek.report import Drawing, Plot, Report
 from ilmek.units import mm
 from ilmek.weaving.comb_on_fell import fell_pressure, krylov
@@ -355,3 +360,36 @@ def test_wide_carpets_hold_the_comb_more_often() -> None:
 def test_what_cannot_be_is_refused(asked, said) -> None:
     with pytest.raises(ParameterError, match=said):
         HammerParams.read(asked)
+
+
+@pytest.mark.parametrize("settings", [{}, {"leaf_height": 30 * mm, "comb_thickness": 25 * mm}, {"comb_depth": 40 * mm}])
+def test_the_second_moment_of_a_slotted_bar_is_that_of_its_cells(settings: dict[str, Any]) -> None:
+    """Cells of 1/400 of its sides, those of the slots left out."""
+    params = HammerParams(**{"comb_depth": 110 * mm, **settings})
+    (moment, edge), (deep, tall) = second_moment(params), slot_of(params)
+    high, wide = params.depth, params.comb_thickness
+    y, x = np.meshgrid((np.arange(800) + 0.5) / 800 * high, (np.arange(800) + 0.5) / 800 * wide)
+    cells = ~((y < tall) & (x < deep))
+    middle = float(y[cells].mean())
+    cell = high * wide / 800**2
+    assert moment == pytest.approx(float(((y[cells] - middle) ** 2).sum()) * cell, rel=2e-3)
+    assert edge == pytest.approx(max(middle, high - middle), rel=2e-3)
+
+
+@pytest.mark.parametrize("drive", ["comb", "linkage"])
+def test_each_leaf_fills_its_slot_in_the_bar(drive: str) -> None:
+    """By manifold3d: the leaves are in no metal of the bar, and half a slot aside all of them are."""
+    bodies = tree(MACHINE.design(HammerParams(drive=drive))).body("hammer/comb")
+    (bar,) = (own for own in bodies.occurrences if own.part.id == "hammer/bar")
+    (leaves,) = (own for own in bodies.occurrences if own.part.id == "hammer/leaf")
+
+    def solid(own: Occurrence, number: int, aside: float) -> Manifold:
+        assert own.part.shape is not None
+        mesh, place = own.part.shape.mesh(), own.positions[number]
+        points = place.points(mesh.points) + place.rotation @ np.array([0.0, 0.0, aside])
+        return Manifold(Mesh((points * 1e3).astype(np.float32), mesh.triangles.astype(np.uint32)))
+
+    metal = solid(bar, 0, 0.0)
+    for number in (0, 1, len(leaves.positions) // 2, len(leaves.positions) - 1):
+        assert (metal ^ solid(leaves, number, 0.0)).volume() < 0.05
+        assert (metal ^ solid(leaves, number, 0.4 * mm)).volume() > 5.0

@@ -263,7 +263,8 @@ def _loom(weft: str) -> tuple[Any, Scene]:
     return made, scene(made, loom_report(made))
 
 
-@pytest.mark.parametrize("weft", ["shuttle", "rapier"])
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("weft", ["rapier", "shuttle"])
 def test_every_part_of_heads_and_weft_in_space_is_a_line_with_its_checks(weft: str) -> None:
     made, found = _loom(weft)
     lines = {line.part: line for line in parts_of_loom(made).parts if line.part}

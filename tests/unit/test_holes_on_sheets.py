@@ -33,7 +33,7 @@ from ilmek.viz.drawings.drawn_part import DrawnPart
 ROUNDED = 6e-3
 """Deviation of a coordinate to 0.01 mm [mm]."""
 
-SHARE = 3
+SHARE = 6
 """One sheet in so many is drawn in `make test`, all in a campaign."""
 
 

@@ -59,6 +59,7 @@ def bought(tree: Tree, *kinds: str) -> Iterator[Part]:
     return (part for part, _ in tree.occurrences() if part.purchase is not None and part.process in kinds)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize(("machine", "settings"), TREES)
 def test_something_holds_every_hub_along_its_shaft(machine: str, settings: Any) -> None:
     assert loose_hubs(tree_of(machine, settings)) == set()

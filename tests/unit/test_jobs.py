@@ -156,7 +156,7 @@ def test_a_first_carpet_warms_everything() -> None:
     assert warm() > 512
 
 
-@pytest.mark.usefixtures("not_in_space", "nothing_near")
+@pytest.mark.usefixtures("plain_loom_page", "nothing_near")
 def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def failing(*_: object, **__: object) -> None:
         raise ZeroDivisionError("no picture")

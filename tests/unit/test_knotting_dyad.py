@@ -9,6 +9,7 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design
+from ilmek.plane.solids import is_closed
 from ilmek.report import Drawing, Report
 from ilmek.units import deg
 
@@ -175,3 +176,11 @@ def test_a_given_depth_widens_the_gaps_and_a_depth_that_no_gap_helps_fails() -> 
     assert shallow.section.beside == pytest.approx(shallow.section.needle + shallow.section.yarn, rel=1e-9)
     names = [check.name for check in answer(depth="1mm").failed]
     assert "needle and pile yarn together, beside the pair" in names
+
+
+def test_arms_whose_pivots_lie_behind_their_servos_have_a_plate_with_all_bores() -> None:
+    """Needles of 14 mm and a hand-over 100 mm deep: checks fail, and the plate still has a closed mesh."""
+    made = MACHINE.design(KnottingDyadParams(needle_breadth=14e-3, depth=0.1))
+    assert MACHINE.report(made, illustrated=False).failed
+    assert MACHINE.tree is not None
+    assert all(part.shape is None or is_closed(part.shape.mesh()) for part, _ in MACHINE.tree(made).occurrences())

@@ -25,10 +25,11 @@ from ilmek.carpet.colourways import Colourway, recoloured
 from ilmek.carpet.price_rules import WageRules
 from ilmek.carpet.strike_off import part_of, strike_off_window
 from ilmek.cli import main
-from ilmek.errors import CarpetError
+from ilmek.errors import CarpetError, LoomError
 from ilmek.io.call_state import CallState, state_file, write_state
 from ilmek.io.carpet_record import read_record, record_faults
 from ilmek.io.yarn_file import default_yarns
+from ilmek.jobs.ordering.progress import woven_rows
 from ilmek.viz.room import HIGH, WIDE, draw_room
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -205,6 +206,17 @@ def test_a_record_keeps_the_days_of_its_rows(tmp_path: Path, monkeypatch: pytest
     payments = WageRules(3.2, 1000, 3, 0.02, 0.2, 15).payments([30] * 40, 4)
     assert half_up(one["wage_due"]) == payments[0].paid + payments[1].paid
     assert "30 of 40 rows" in text_of(out / "medallion-madder" / "wages.pdf")
+
+
+def test_rows_are_read_from_the_journal_of_a_run(tmp_path: Path) -> None:
+    ran = run("run", EXAMPLES / "small_programme.txt", "--journal", tmp_path / "run", "--speed", "max")
+    assert ran.exit_code == 0, ran.output
+    chart = Chart(np.zeros((6, 4)), default_yarns()[:1], "4x6cm", "10x10/dm", "symmetric")
+    found = woven_rows(chart, tmp_path / "run")
+    assert (found.rows, found.source) == (6, "journal")
+    other = Chart(np.zeros((7, 4)), default_yarns()[:1], "4x7cm", "10x10/dm", "symmetric")
+    with pytest.raises(LoomError, match="weaves 6 rows, the carpet has 7"):
+        woven_rows(other, tmp_path / "run")
 
 
 def test_payments_are_the_wage() -> None:

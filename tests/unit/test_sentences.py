@@ -34,7 +34,8 @@ FAMILIES += (
     "chart.right",
     "chart.below",
 )
-FAMILIES += ("chart.above",)
+FAMILIES += ("chart.above", "order.approved", "order.changes", "order.signed", "order.warp-beam", "order.cloth-beam")
+FAMILIES += ("order.fibre-",)
 """Begins of keys that are put together."""
 
 

@@ -7,11 +7,11 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.studio.answers import Context
-from ilmek.viz.plain.records import ShownFigure
-from ilmek.viz.plain.figures import rounded_numbers, shown_figures
 from ilmek.jobs.studio.machine.figures import TablesRequest, tables
 from ilmek.report import Animation, Gantt, Plot, StackedBars, Timing
 from ilmek.report.figure import Axis, GanttLane, Lane, Series
+from ilmek.viz.plain.figures import rounded_numbers, shown_figures
+from ilmek.viz.plain.records import ShownFigure
 
 
 @pytest.fixture(scope="module")

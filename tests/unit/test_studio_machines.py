@@ -86,7 +86,7 @@ def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: 
 
 
 def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_then_those_in_space() -> None:
-    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m"}
+    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m", "beat": "comb"}
     seen = view(DesignRequest("automated-loom", settings), HERE)
     assert not seen.holds
     assert seen.failed == len(seen.reasons)

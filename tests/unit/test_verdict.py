@@ -108,7 +108,7 @@ def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     assert "weaver: cams beside each other" in {reason["name"] for reason in machine["reasons"]}
 
 
-@pytest.mark.usefixtures("not_in_space")
+@pytest.mark.usefixtures("plain_loom_page")
 def test_the_page_of_a_loom_that_cannot_weave_is_red(tmp_path: Path) -> None:
     run("weave", MEDALLION, "--size", "20x30cm", "--quality", "10x10/dm", *FAILS, "--out", str(tmp_path / "out"))
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
@@ -201,7 +201,7 @@ def test_wishes_that_contradict_are_named_together(
 @pytest.mark.usefixtures("plain_page")
 def test_heads_and_a_deadline_that_agree_are_both_kept(tmp_path: Path) -> None:
     size = ("--size", "80x80cm", "--quality", "15x15/dm", "--no-pdf", "--out", str(tmp_path / "out"))
-    result = run("weave", MEDALLION, *size, "--heads", "2", "--deadline", "90h", "--json", "-")
+    result = run("weave", MEDALLION, *size, "--heads", "2", "--deadline", "90h", "--loom", "beat=comb", "--json", "-")
     found = json.loads(result.stdout)
     assert found["heads"] == 2
     assert next(check for check in found["checks"] if check["name"] == "weaving time")["ok"]
@@ -216,7 +216,7 @@ def test_the_chart_and_the_cyclogram_end_with_their_checks(tmp_path: Path) -> No
     assert solved.exit_code == judged(json.loads(solved.stdout)) == 0
 
 
-@pytest.mark.usefixtures("not_in_space")
+@pytest.mark.usefixtures("plain_page")
 def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     found = json.loads(run("design", "automated-loom", "--json", "-").stdout)
     assert {"name", "chosen", "decided_by", "next_cheaper", "failed"} == found["choices"][0].keys()
@@ -227,7 +227,7 @@ def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [choice.name for choice in machine.report_for({}).all_choices] == [one["name"] for one in found["choices"]]
 
 
-@pytest.mark.usefixtures("not_in_space")
+@pytest.mark.usefixtures("plain_page")
 def test_the_nearest_carpets_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     fits = (NearestFit("quality", "20/dm x 20/dm"), NearestFit("width", "0.9 m"))
     monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: fits)
@@ -240,7 +240,6 @@ def test_the_nearest_carpets_are_named(tmp_path: Path, monkeypatch: pytest.Monke
     assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in shown
     assert "quality 20/dm x 20/dm; width 0.9 m." in page.read_text(encoding="utf-8")
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.nearest)
-    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
     out = tmp_path / "out"
     woven = run("weave", MEDALLION, *SMALL, *FAILS, "--out", str(out))
     assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in woven.stdout

@@ -16,7 +16,7 @@ from ilmek.part.catalogue import motor
 from ilmek.part.placement import placement
 from ilmek.part.shapes import shape_box
 from ilmek.part.tree import Tree
-from ilmek.part.worm_reducer import eye, eye_face, eye_radius, hung, journal, worm_reducer
+from ilmek.part.worm_reducer import eye, eye_face, eye_radius, inlet, journal, motor_in, reducer_position, worm_reducer
 
 
 def test_sizes_grow_together() -> None:
@@ -45,15 +45,18 @@ def test_the_smallest_that_holds(torque: float, ratio: float) -> None:
 def test_the_hollow_shaft_is_on_the_shaft_and_the_motor_across(ratio: float, arm: complex) -> None:
     """By points of the part's own axes, carried by its position."""
     row = WORM_SIZES[4]
-    lies = hung(row, ratio, 0.7, complex(arm))
-    axis = lies.points(np.array([[-0.1, -row.centre, row.to_motor(ratio)], [0.1, -row.centre, row.to_motor(ratio)]]))
+    long = inlet(row, ratio, None)
+    lies = reducer_position(row, long, 0.7, complex(arm))
+    axis = lies.points(np.array([[-0.1, -row.centre, long], [0.1, -row.centre, long]]))
     assert axis == pytest.approx(np.array([[0, 0, 0.6], [0, 0, 0.8]]), abs=1e-12)
     worm = lies.rotation[:, 2]
     assert worm[2] == pytest.approx(0.0, abs=1e-12)
     nearest = np.cross(np.cross(worm, lies.origin - np.array([0, 0, 0.7])), worm)  # of the worm's axis from the shaft
     assert np.linalg.norm(nearest) == pytest.approx(row.centre)
-    held = lies.points(np.array([[eye_face(row), -row.centre - row.arm, row.to_motor(ratio)]]))[0]
+    held = lies.points(np.array([[eye_face(row), -row.centre - row.arm, long]]))[0]
     assert held == pytest.approx(eye(row, 0.7, complex(arm)).origin)
+    shaft = lies.after(motor_in(row, ratio, None)).rotation[:, 2]
+    assert abs(shaft @ np.array([0, 0, 1.0])) == pytest.approx(float(ratio > SINGLE), abs=1e-12)
     assert held[:2] == pytest.approx([row.arm * arm.real, row.arm * arm.imag])
 
 

@@ -9,8 +9,8 @@ from typing import TypeVar
 
 from ilmek.arguments import Arguments, Quantity
 from ilmek.arrays import Rgb
-from ilmek.carpet import chart as charting
-from ilmek.carpet.chart import Chart
+from ilmek.carpet import chart_making
+from ilmek.carpet.chart import Chart, used_first
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.sizes import AUTO, CarpetSize
 from ilmek.carpet.yarn import Yarn, yarn_list
@@ -93,7 +93,7 @@ def make_chart(
     groups = read_groups({**settings, **sides})
     density, knot = carpet_quality(quality), parse_knot(knot)
     listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else yarn_list(yarns, 2)
-    chart = charting.make_chart(
+    chart = chart_making.make_chart(
         _pixels(picture, groups["fit"].ground),
         stated,
         density,
@@ -105,7 +105,7 @@ def make_chart(
         palette=groups["palette"],
         progress=Arguments("a chart", CarpetError).record("progress", progress, Progress),
     )
-    return charting.used_first(chart)
+    return used_first(chart)
 
 
 def _pixels(picture: PictureLike, ground: str | None) -> Rgb:

@@ -77,7 +77,11 @@ class ShapeParams(Params):
         "light part is the carpet, like outline.svg or mask.png; default: the whole rectangle",
     )
     kilim_ends: float = kind.length(
-        0.0, unit="cm", at_least=0.0, at_most=5.0, doc="flat weave at each end, as part of the carpet's length"
+        0.0,
+        unit="cm",
+        at_least=0.0,
+        at_most=5.0,
+        doc="flat weave at each end, beyond the pile: the carpet is longer by both",
     )
     flat_weave: str | None = kind.text(
         None,
@@ -168,10 +172,25 @@ def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None) 
             raise CarpetError(f"the pile of {name!r}: no yarn has this name", allowed=", ".join(names), do=hint)
         cells = cells.woven((chart.knots == index) & cells.tied, pile)
     merged = cells.merged()
-    if merged is None:
+    made = chart if merged is None else replace(chart, cells=merged)
+    made = with_ends(made, round(params.kilim_ends * chart.quality.along))
+    return made if made is chart or made.creel is not None else used_first(made)
+
+
+def with_ends(chart: Chart, rows: int) -> Chart:
+    """The chart with a number of rows of flat weave more at each end."""
+    if not rows:
         return chart
-    made = replace(chart, cells=merged)
-    return made if made.creel is not None else used_first(made)
+    cells = (chart.cells or all_knots(chart.rows, chart.columns)).woven(np.zeros_like(chart.knots, bool), PLAIN_GROUND)
+    plain, beyond = cells.kinds.index(PLAIN_GROUND), ((rows, rows), (0, 0))
+    size = replace(chart.size, length=chart.size.length + 2 * rows / chart.quality.along, name="")
+    return replace(
+        chart,
+        knots=np.pad(chart.knots, beyond),
+        cells=replace(cells, index=np.pad(cells.index, beyond, constant_values=plain)),
+        overlay=replace(chart.overlay, rows=chart.overlay.rows + np.int32(rows)),
+        size=size,
+    )
 
 
 def _inside(shape: str, chart: Chart) -> BoolArray:
@@ -228,11 +247,6 @@ def require_wide(inside: BoolArray) -> None:
 def _plain(chart: Chart, params: ShapeParams) -> BoolArray:
     """The cells of flat weave. Raises CarpetError for rows and knots that the carpet does not have."""
     plain = np.zeros((chart.rows, chart.columns), dtype=bool)
-    ends = round(params.kilim_ends * chart.quality.along)
-    if 2 * ends >= chart.rows:
-        allowed = f"less than the carpet's {chart.rows} rows together"
-        raise CarpetError(f"two kilim ends of {ends} rows", allowed=allowed)
-    plain[:ends] = plain[chart.rows - ends :] = True
     for first, last, left, right in plain_areas(params.flat_weave):
         if last > chart.rows or (right or 0) > chart.columns:
             given = f"plain rows {first}-{last}" + (f", knots {left}-{right}" if left else "")

@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 from collections.abc import Sequence
+from contextlib import suppress
 
 from ilmek.errors import OutputError
 
@@ -49,15 +50,15 @@ class Speaker:
     def say(self, text: str) -> None:
         """Say a text, without waiting for its end. Raises OutputError where the program cannot be started."""
         self.stop()
+        quiet = subprocess.DEVNULL
         try:
-            self._process = subprocess.Popen(
-                self._command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-            )
-            assert self._process.stdin is not None
-            with self._process.stdin as words:
-                words.write(text.encode("utf-8"))
+            process = subprocess.Popen(self._command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet)
         except OSError as error:
-            raise OutputError(f"--speak: {self._command[0]} cannot be started ({error.strerror})") from None
+            raise OutputError(f"--speak: {self.program} cannot be started ({error.strerror})") from None
+        self._process = process
+        assert process.stdin is not None
+        with suppress(BrokenPipeError), process.stdin as words:  # a program that ends at once has failed
+            words.write(text.encode("utf-8"))
 
     def __enter__(self) -> "Speaker":
         return self

@@ -162,13 +162,13 @@ class WormSize:
         """Torque at the output [N m]: a ratio above `SINGLE` has a stage before a last one of 50:1."""
         return self.single if _LAST < ratio <= SINGLE else self.torque
 
-    def to_motor(self, ratio: float) -> float:
-        """From the axis of its hollow shaft to the motor's flange [m], with a first stage above `SINGLE`."""
-        return self.motor * (1.0 if ratio <= SINGLE else _STAGE)
+    def first(self, ratio: float) -> "WormSize | None":
+        """The size of the worm before it, above a ratio of `SINGLE`: makers join 63 to 130, 40 to 90."""
+        return None if ratio <= SINGLE else next(row for row in WORM_SIZES if row.centre >= _FIRST * self.centre)
 
 
-SINGLE, _LAST, _STAGE = 100.0, 50.0, 2.2
-"""Largest ratio of a worm, ratio of the last of two stages, and how much farther the motor is with two: by makers."""
+SINGLE, _LAST, _FIRST = 100.0, 50.0, 0.42
+"""Largest ratio of a worm, ratio of the last of two stages, and centre distance of the first over that of the last."""
 
 WORM_SIZES = tuple(
     WormSize(
@@ -195,9 +195,9 @@ WORM_SIZES = tuple(
         (110, 1000, 746, 42, 155, 160, 127.5, 167.5, 74, 130, 165, "M10", 250, "M16", 35.0),
         (130, 1550, 1100, 45, 170, 180, 147.5, 187.5, 81, 180, 215, "M12", 250, "M16", 48.0),
         (150, 2330, 1650, 50, 200, 210, 170, 230, 96, 180, 215, "M12", 250, "M16", 84.0),
-        (185, 4400, 3100, 60, 247, 260, 210, 284, 118, 222, 265, "M16", 310, "M16", 158.0),
-        (250, 10800, 7600, 110, 334, 350, 283, 384, 160, 300, 358, "M16", 400, "M16", 390.0),
-        (315, 21000, 15000, 130, 420, 441, 357, 483, 202, 378, 450, "M16", 500, "M16", 780.0),
+        (185, 4400, 3100, 60, 247, 260, 210, 284, 118, 222, 265, "M16", 370, "M16", 158.0),
+        (250, 10800, 7600, 110, 334, 350, 283, 384, 160, 300, 358, "M16", 445, "M16", 390.0),
+        (315, 21000, 15000, 130, 420, 441, 357, 483, 202, 378, 450, "M16", 520, "M16", 780.0),
     )
 )
 """Motovario's SW, sizes and masses by its catalogue; torques of its two-stage units at less than 1 rpm. Those above 150

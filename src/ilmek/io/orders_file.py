@@ -38,7 +38,7 @@ from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, r
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import SHIPPED
 from ilmek.params import Parameter, Setting
-from ilmek.sentences import DEFAULT, LANGUAGES, WEAVERS
+from ilmek.sentences import DEFAULT, WEAVERS
 
 MOST_ORDERS = 500
 """Largest number of orders of a file, and of carpets in all of them."""
@@ -137,15 +137,15 @@ def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter])
         read.file(root, "looms"),
         read_price(root, currency),
         read_wage(root, currency),
-        _language(root, "language", LANGUAGES),
-        _language(root, "workshop_language", WEAVERS),
+        _language(root, "language"),
+        _language(root, "workshop_language"),
     )
 
 
-def _language(root: FactoryEntry, key: str, known: Mapping[str, object]) -> str:
+def _language(root: FactoryEntry, key: str) -> str:
     text = root.text(key, DEFAULT)
-    if text not in known:
-        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(known)), key)
+    if text not in WEAVERS:
+        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(WEAVERS)), key)
     return text
 
 

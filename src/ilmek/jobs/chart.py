@@ -1,13 +1,14 @@
 """From a picture to knot chart and yarn bill, and their files."""
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import asdict, fields, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
+from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
@@ -208,6 +209,9 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
         "rows": chart.rows,
         "columns": chart.columns,
         "knots": chart.tally().knots,
+        "cells": [] if chart.cells is None else _cells(chart.cells),
+        "finished_area": bill.area,
+        "edge_length": bill.edge,
         "colours": chart.colours,
         "reading": reading.kind,
         "changed_knots": reading.changed,
@@ -237,6 +241,11 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
         "price": bill.price,
         "currency": bill.currency,
     }
+
+
+def _cells(cells: CellMap) -> list[Json]:
+    """The kinds of cells with their numbers."""
+    return [{**asdict(kind), "cells": count} for kind, count in zip(cells.kinds, cells.counts, strict=True)]
 
 
 def _statistics(charted: ChartResult) -> dict[str, Json]:

@@ -124,7 +124,7 @@ def welded_together(one: Part, other: Part) -> bool:
     if _is_joined(one, other) or _is_joined(other, one):
         return True
     processes = {one.process, other.process}
-    return WELDED in processes and processes <= _WITH
+    return WELDED in processes and processes <= _WITH and not (one.fixing or other.fixing)
 
 
 def _is_joined(part: Part, other: Part) -> bool:
@@ -170,7 +170,7 @@ def _joints(tree: Tree) -> tuple[tuple[tuple[str, str], tuple[tuple[str, Weld], 
     stock = frozenset(name for name, part in parts.items() if part.process == WELDED) | tubes
     screws = frozenset(name for name, part in parts.items() if part.process == "fastener")
     screwed = [frozenset(pair) for pair in joined_by(tree, screws).values()] if screws else []
-    plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
+    plates = frozenset(name for name, part in parts.items() if part.process in _WITH and not part.fixing)
     stated = {frozenset((name, other)) for name, part in parts.items() if part.material for other in part.joins}
     named = frozenset(name for ids in stated for name in ids)
     joints = list[tuple[tuple[str, str], tuple[tuple[str, Weld], ...]]]()

@@ -2,7 +2,8 @@
 
 Axes: z along the worm, from the motor's flange at z = 0; the hollow shaft along x, its middle below the worm, at -y.
 The torque arm lies on the cover at +x, along -y; a shaft comes in from -x. The reducer hangs on this shaft, and its arm
-keeps it from turning: a screw in its eye, so that the shaft's run-out forces nothing.
+keeps it from turning: a screw in its eye, so that the shaft's run-out forces nothing. Of two worms the first is at the
+end of the second, its own across: the motor is then along the hollow shaft, at +x.
 """
 
 import math
@@ -62,7 +63,7 @@ def worm_reducer(  # noqa: PLR0917
         circle(0j, abs(corner) + catalogue.HOLLOW),
         row.circle / 2 + _EDGE * SOCKET_SCREWS[row.thread].diameter,
     )
-    face, flange = motor.face if motor else catalogue.SPECIAL_FACE, row.to_motor(by.ratio)
+    face, first, flange = _face(motor), row.first(by.ratio), inlet(row, by.ratio, motor)
     inside, across = row.cover - _COVER, placement(0.0, -row.centre, flange, about=(0.0, 1.0, 0.0), angle=turn / 4)
 
     def beside(x: float, profile: Profile, length: float, y: float = 0.0) -> Placed:
@@ -78,7 +79,7 @@ def worm_reducer(  # noqa: PLR0917
             beside(-inside, Profile(polygon(corners), (bore,)), 2 * inside),
             *(beside(x, disc(about, bore), _COVER) for x in (-row.cover, inside)),
             *(beside(x, pilots, row.length / 2 - row.cover) for x in (-row.length / 2, row.cover)),
-            Placed(box(face, face, flange - row.half)),
+            *(_first_stage(first, face, flange - row.half) if first else (Placed(box(face, face, flange - row.half)),)),
             beside(row.cover, Profile(_arm(row, about), (circle(0j, row.pilot / 2), eye)), ARM),
             beside(eye_face(row), disc(eye_radius(row)), long, -row.arm),
         )
@@ -94,11 +95,42 @@ def worm_reducer(  # noqa: PLR0917
     )
     holes = (
         HolePattern(0.0, 0.0, row.screw, faces=(0,)),
-        replace(*catalogue.flange_holes(motor), tapped=True, faces=(-1,)),
+        replace(*catalogue.flange_holes(motor), tapped=True, faces=(0,) if first else (-1,)),
     )
     power, kind = motor.power if motor else 0.0, f"worm reducer {by.ratio:g}:1"
     bought = Bought(kind, row.mass, power=power, data=", ".join(data), holes=holes)
     return bought_part(name, title, "reducer", room, bought)
+
+
+def _first_stage(first: WormSize, face: float, end: float) -> tuple[Placed, ...]:
+    """Housing of a first worm, about z from z = 0, what joins it to the second, which begins at `end`, its neck."""
+    long, across = max(first.length, face), first.half + first.top
+    middle = placement(0.0, (first.half - first.top) / 2)
+    neck = placement(first.half, -first.centre, long / 2, about=(0.0, 1.0, 0.0), angle=turn / 4)
+    return (
+        Placed(box(2 * first.half, across, long), (middle,)),
+        Placed(box(first.half, first.half, end - long), (placement(z=long),)),
+        Placed(box(face, face, first.motor - first.half), (neck,)),
+    )
+
+
+def _face(motor: Motor | None) -> float:
+    return motor.face if motor else catalogue.SPECIAL_FACE
+
+
+def inlet(row: WormSize, ratio: float, motor: Motor | None) -> float:
+    """From the axis of the hollow shaft to the end of the housing along the worm [m]: to the motor's flange of one."""
+    first = row.first(ratio)
+    return row.motor + (max(first.length, _face(motor)) if first else 0.0)
+
+
+def motor_in(row: WormSize, ratio: float, motor: Motor | None) -> Placement:
+    """Position of the motor in the reducer's axes."""
+    first = row.first(ratio)
+    if first is None:
+        return placement()
+    middle = max(first.length, _face(motor)) / 2
+    return placement(first.motor, -first.centre, middle, about=(0.0, 1.0, 0.0), angle=-turn / 4)
 
 
 def _arm(row: WormSize, about: float) -> Contour:
@@ -107,12 +139,13 @@ def _arm(row: WormSize, about: float) -> Contour:
     return polygon(hull(np.concatenate([about * ring, -1j * row.arm + edge * ring])))
 
 
-def hung(row: WormSize, ratio: float, middle: float, arm: complex) -> Placement:
-    """Position of a worm reducer and of its motor on a shaft along z.
+def reducer_position(row: WormSize, long: float, middle: float, arm: complex) -> Placement:
+    """Position of a worm reducer on a shaft along z.
 
-    middle  of the hollow shaft on it [m]      arm  direction of the torque arm across the shaft, x + i y
+    long  to its end along the worm, `inlet`      middle  of the hollow shaft on it [m]
+    arm   direction of the torque arm across the shaft, x + i y
     """
-    along, motor = -1j * arm, (1j * row.to_motor(ratio) - row.centre) * arm
+    along, motor = -1j * arm, (1j * long - row.centre) * arm
     axes = np.array([[0.0, -arm.real, along.real], [0.0, -arm.imag, along.imag], [1.0, 0.0, 0.0]])
     return Placement(np.array([motor.real, motor.imag, middle]), axes)
 

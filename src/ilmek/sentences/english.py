@@ -20,8 +20,9 @@ ENGLISH = {
     "check.outline": "outline of the picture hidden on its ground",
     "check.outline-cure": "give a colour that contrasts with it: --ground COLOUR",
     "check.round": "knots outside of the round picture",
-    "check.round-source": "a round carpet has none there; all carpets are rectangles so far",
-    "check.round-cure": "take a rectangular carpet: --ground COLOUR is that of its corners",
+    "check.round-source": "a round carpet has none there",
+    "check.round-cure": "--shape picture cuts them away; or take a rectangular carpet: --ground COLOUR is that of its "
+    "corners",
     "check.chosen": "chosen by this project on drawings and photographs",
     "check.pile": "pile: share of the ground filled",
     "check.one-knife": "the knife of a head stands at one height and cuts every knot",

@@ -44,6 +44,8 @@ SHEETS = {
     "sheet.process-steel-tube": "sawn",
     "sheet.process-steel-bar": "sawn",
     "sheet.process-carbon-tube": "sawn",
+    "sheet.leaf-slots": "{number} slots {width} H9 x {deep}, pitch {pitch}, ±0.02 from the first; leaves bonded",
+    "sheet.ends-of-row": "Of the row of notches only the ends are drawn",
     "sheet.axial-play": "Axial play of the cam shaft between the plates' lips {low}…{high}: grind an end spacer",
     "sheet.shims": "Pile at nominal thickness, of sheets of {kit} mm; chosen at assembly: 0 to {most}, to {step}",
     "sheet.bonded": "bonded on its shaft with retaining compound",

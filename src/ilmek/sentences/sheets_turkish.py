@@ -44,6 +44,8 @@ SHEETS = {
     "sheet.process-steel-tube": "kesilir",
     "sheet.process-steel-bar": "kesilir",
     "sheet.process-carbon-tube": "kesilir",
+    "sheet.leaf-slots": "{number} yarık {width} H9 x {deep}, adım {pitch}, ilkinden ±0,02; yapraklar yapıştırılır",
+    "sheet.ends-of-row": "Yarık sırasının yalnız uçları çizilmiştir",
     "sheet.axial-play": "Kam milinin levha faturaları arasında boşluğu {low}…{high}: uçtaki ara parça taşlanır",
     "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",

@@ -20,8 +20,9 @@ TURKISH = {
     "check.outline": "resmin zemininde kaybolan dış çizgisi",
     "check.outline-cure": "onunla karşıt bir renk verin: --ground RENK",
     "check.round": "yuvarlak resmin dışındaki düğümler",
-    "check.round-source": "yuvarlak bir halının orada düğümü yoktur; şimdilik tüm halılar dikdörtgendir",
-    "check.round-cure": "dikdörtgen bir halı seçin: zemin rengi köşelerinin rengidir",
+    "check.round-source": "yuvarlak bir halının orada düğümü yoktur",
+    "check.round-cure": "--shape picture onları keser; ya da dikdörtgen bir halı seçin: zemin rengi köşelerinin "
+    "rengidir",
     "check.chosen": "bu proje tarafından çizimler ve fotoğraflar üzerinde seçildi",
     "check.pile": "hav: doldurulan zemin payı",
     "check.one-knife": "bir başlığın bıçağı tek yükseklikte durur ve her ilmeği keser",

@@ -69,10 +69,9 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "The whole carpet",
     "chart.facts": "{size} (width × length), {across} × {along} knots per dm, {knot} knots",
-    "chart.bare": "{bare} of these cells have no knot (·): {knots} knots are tied.",
-    "chart.one-sheet": "{columns} knots × {rows} rows = {knots} knots in {colours} on one sheet",
-    "chart.sheets": "{columns} knots × {rows} rows = {knots} knots in {colours} on {sheets} sheets of {across} knots × "
-    "{up} rows",
+    "chart.one-sheet": "{columns} knots × {rows} rows: {knots} knots in {colours} on one sheet",
+    "chart.sheets": "{columns} knots × {rows} rows: {knots} knots in {colours} on {sheets} sheets of {across} "
+    "knots × {up} rows",
     "chart.order": "Rows are counted from the bottom, knots from the left.",
     "chart.shaded": "Shaded knots belong to the next sheet.",
     "chart.two": "{first} {second}",
@@ -83,8 +82,8 @@ WEAVER = {
     "chart.right": "→ right: sheet {number}",
     "chart.below": "↓ below: sheet {number}",
     "chart.above": "↑ above: sheet {number}",
-    "chart.wall": "{size}, {quality}, {knot} knot; rows are counted from the bottom, knots from the left; sheet {width} "
-    "× {length} cm",
+    "chart.wall": "{size}, {quality}, {knot} knot; rows are counted from the bottom, knots from the left; sheet "
+    "{width} × {length} cm",
     "chart.quality": "{across}x{along}/dm",
     # Legend
     "legend.outline": "Legend",
@@ -124,8 +123,8 @@ WEAVER = {
     "rows.some": "Rows {first}–{last}",
     "rows.some-of": "Rows {first}–{last} of {rows}",
     "rows.page": "{name}, page {page} of {pages}",
-    "rows.how": "Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a symbol "
-    "alone: one knot. {reading}",
+    "rows.how": "Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a "
+    "symbol alone: one knot. {reading}",
     "rows.right": "Read from left to right.",
     "rows.left": "Read from right to left.",
     "rows.alternate": "Read odd rows from left to right, even rows from right to left.",
@@ -139,18 +138,18 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: half knots on left, right warps",
     "rows.jufti-cells": "; j: jufti knots",
+    "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",
     "rows.text": "{size}, {quality}, {knot} knot; row 1 is the first that is woven, at the lower edge.",
-    "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank continues "
-    "the one above.",
-    "rows.text-runs": "12A: 12 knots of yarn A. 2½AC: 2 cells with two half knots each, A on the warp that is met "
-    "first, C on the",
-    "rows.text-more-runs": "other. 1jB: 1 jufti knot of B, on four warps, in two cells. A colon: before a symbol that "
-    "is a digit.",
-    "rows.text-bare": "12·: 12 cells without a knot, flat weave.",
-    "rows.text-colours": "A 54: the 54 knots of yarn A of the row, by the numbers of their cells from the edge where "
-    "the row begins.",
-    "rows.text-more-colours": "16-17L: half knots on the left warps of cells 16 and 17; R: on the right ones. 18-19j: "
-    "a jufti knot.",
+    "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank "
+    "continues the one above.",
+    "rows.text-runs": "12A: 12 knots of yarn A. 2½AC: 2 cells with two half knots each, A on the warp that is "
+    "met first, C on the",
+    "rows.text-more-runs": "other. 1jB: 1 jufti knot of B, on four warps, in two cells. A colon: before a "
+    "symbol that is a digit.",
+    "rows.text-colours": "A 54: the 54 knots of yarn A of the row, by the numbers of their cells from the edge "
+    "where the row begins.",
+    "rows.text-more-colours": "16-17L: half knots on the left warps of cells 16 and 17; R: on the right ones. "
+    "18-19j: a jufti knot.",
     # Call
     "call.done": "All {rows} rows are done.",
     "call.row": "Row {row} of {rows} {arrow}   step {step} of {steps}",

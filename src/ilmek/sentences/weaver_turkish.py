@@ -60,10 +60,9 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "Halının tümü",
     "chart.facts": "{size} (en × boy), dm'de {across} × {along} ilmek, {knot} ilmek",
-    "chart.bare": "Bu gözlerin {bare} tanesi ilmeksizdir (·): {knots} ilmek atılır.",
-    "chart.one-sheet": "{columns} ilmek × {rows} sıra = {knots} ilmek, {colours}, tek sayfada",
-    "chart.sheets": "{columns} ilmek × {rows} sıra = {knots} ilmek, {colours}, {sheets} sayfada; sayfa {across} ilmek × "
-    "{up} sıra",
+    "chart.one-sheet": "{columns} ilmek × {rows} sıra: {knots} ilmek, {colours}, tek sayfada",
+    "chart.sheets": "{columns} ilmek × {rows} sıra: {knots} ilmek, {colours}, {sheets} sayfada; sayfa {across} "
+    "ilmek × {up} sıra",
     "chart.order": "Sıralar alttan, ilmekler soldan sayılır.",
     "chart.shaded": "Soluk ilmekler sonraki sayfanındır.",
     "chart.two": "{first} {second}",
@@ -74,8 +73,8 @@ WEAVER = {
     "chart.right": "→ sağ: sayfa {number}",
     "chart.below": "↓ alt: sayfa {number}",
     "chart.above": "↑ üst: sayfa {number}",
-    "chart.wall": "{size}, {quality}, {knot} ilmek; sıralar alttan, ilmekler soldan sayılır; kâğıt {width} × {length} "
-    "cm",
+    "chart.wall": "{size}, {quality}, {knot} ilmek; sıralar alttan, ilmekler soldan sayılır; kâğıt {width} × "
+    "{length} cm",
     "chart.quality": "{across} × {along} ilmek/dm",
     # Legend
     "legend.outline": "Renkler",
@@ -115,8 +114,8 @@ WEAVER = {
     "rows.some": "Sıra {first}–{last}",
     "rows.some-of": "Sıra {first}–{last}, toplam {rows}",
     "rows.page": "{name}, sayfa {page} / {pages}",
-    "rows.how": "1. sıra ilk dokunan, alt kenardaki sıradır. Simge üstünde sayı: yan yana o kadar ilmek; yalnız simge: "
-    "bir ilmek. {reading}",
+    "rows.how": "1. sıra ilk dokunan, alt kenardaki sıradır. Simge üstünde sayı: yan yana o kadar ilmek; yalnız "
+    "simge: bir ilmek. {reading}",
     "rows.right": "Soldan sağa okuyun.",
     "rows.left": "Sağdan sola okuyun.",
     "rows.alternate": "Tek sıraları soldan sağa, çift sıraları sağdan sola okuyun.",
@@ -130,15 +129,15 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: sol, sağ çözgülerde yarım ilmekler",
     "rows.jufti-cells": "; j: çift ilmekler (cufti)",
+    "rows.text-plain": "12{sign}: ilmeksiz 12 göz, bez ayağı dokuma.",
     "rows.text": "{size}, {quality}, {knot} ilmek; 1. sıra ilk dokunan, alt kenardaki sıradır.",
     "rows.text-signs": ">: soldan sağa okunur; <: sağdan sola. Boşlukla başlayan satır üstündekini sürdürür.",
     "rows.text-runs": "12A: A ipliğinden 12 ilmek. 2½AC: her birinde iki yarım ilmek olan 2 göz, A önce gelen çözgüde,",
-    "rows.text-more-runs": "C ötekinde. 1jB: B'den 1 çift ilmek (cufti), dört çözgüde, iki gözde. İki nokta: rakam olan "
-    "bir simgeden önce.",
-    "rows.text-bare": "12·: ilmeksiz 12 göz, düz dokuma.",
+    "rows.text-more-runs": "C ötekinde. 1jB: B'den 1 çift ilmek (cufti), dört çözgüde, iki gözde. İki nokta: "
+    "rakam olan bir simgeden önce.",
     "rows.text-colours": "A 54: sıranın A ipliğinden 54 ilmeği, sıranın başladığı kenardan sayılan gözleriyle.",
-    "rows.text-more-colours": "16-17L: 16. ve 17. gözlerin sol çözgülerinde yarım ilmekler; R: sağdakilerde. 18-19j: "
-    "bir çift ilmek.",
+    "rows.text-more-colours": "16-17L: 16. ve 17. gözlerin sol çözgülerinde yarım ilmekler; R: sağdakilerde. "
+    "18-19j: bir çift ilmek.",
     # Call
     "call.done": "{rows} sıranın tümü bitti.",
     "call.row": "Sıra {row} / {rows} {arrow}   adım {step} / {steps}",

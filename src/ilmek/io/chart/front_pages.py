@@ -42,19 +42,17 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
         "chart.sheets" if plan.count > 1 else "chart.one-sheet",
         columns=chart.columns,
         rows=chart.rows,
-        knots=thousands(chart.knots.size),
+        knots=thousands(chart.tally().knots),
         colours=colours_in_words(chart.colours),
         sheets=thousands(plan.count),
         across=plan.sheet_columns,
         up=plan.sheet_rows,
     )
-    order, tied = Sentence("chart.order"), chart.tally().knots
-    bare = Sentence("chart.bare", bare=thousands(chart.knots.size - tied), knots=thousands(tied))
+    order = Sentence("chart.order")
     return (
         Sentence("chart.facts", size=size_of(chart.size), across=across, along=along, knot=noun(chart.knot)),
         sheets,
         Sentence("chart.two", first=order, second=Sentence("chart.shaded")) if plan.count > 1 else order,
-        *([bare] if tied < chart.knots.size else []),
     )
 
 

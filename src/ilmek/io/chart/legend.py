@@ -1,6 +1,7 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
@@ -224,7 +225,7 @@ def _cm(length: float) -> str:
     return format_number(length / cm)
 
 
-def _middle(what: str, after: float) -> dict[str, object]:
+def _middle(what: str, after: float) -> dict[str, Any]:
     """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
     if after == int(after):
         return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}

@@ -44,7 +44,7 @@ def line_width(text: str, size: float, base: str = TEXT, rightward: bool | None 
 
 
 def draw_line(
-    canvas: Canvas, x: float, y: float, text: str, size: float, base: str = TEXT, rightward: bool | None = None
+    canvas: Canvas, x: float, y: float, text: str, size: float, *, base: str = TEXT, rightward: bool | None = None
 ) -> None:
     """Draw a line of text with its left edge at x and its baseline at y [pt].
 

@@ -25,6 +25,9 @@ from ilmek.units import cm, format_number
 DIGITS = {"latin": LATIN} | {code: row.digits for code, row in WEAVERS.items() if row.digits != LATIN}
 """Digits 0 to 9 by the language that writes with them. The fonts of the printed files have them."""
 
+_WORDS, _CODE = re.compile(r"( +)"), re.compile(r"[#A-Za-z]")
+"""Blanks between words, and the begin of a code."""
+
 _BETWEEN = re.compile(r"(?<=[۰-۹٠-٩])[.\u202f](?=[۰-۹٠-٩])")
 _SIGNS = {".": "٫", "\u202f": "٬"}
 """Decimal point and mark of thousands between Arabic digits."""
@@ -63,9 +66,12 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         self._digits = str.maketrans(LATIN, DIGITS[digits] if digits else language.digits)
 
     def numerals(self, text: str) -> str:
-        """A text in the language and with the digits of this canvas."""
-        said = translated(text) if isinstance(text, Sentence) else text
-        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said.translate(self._digits))
+        """A text in the language and with the digits of this canvas; a code, like N-204 or #9e2b25, keeps its own."""
+        if isinstance(text, Sentence):
+            said = translated(text).translate(self._digits)
+        else:
+            said = "".join(part if _CODE.match(part) else part.translate(self._digits) for part in _WORDS.split(text))
+        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said)
 
     def side(self, x: float, width: float = 0.0) -> float:
         """The left edge of what is as wide and lies x from the side of the page where lines begin."""
@@ -110,7 +116,9 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         if is_plain(text, font):
             super().drawString(x - share * self.stringWidth(text, font, size) if share else x, y, text)
             return
-        draw_line(self, x - share * line_width(text, size, font, rightward), y, text, size, font, rightward)
+        draw_line(
+            self, x - share * line_width(text, size, font, rightward), y, text, size, base=font, rightward=rightward
+        )
         self.setFont(font, size)
 
     def draw_letters(self, x: float, y: float, text: str) -> None:

@@ -91,7 +91,7 @@ def _draw_page(
         canvas.setFillColorRGB(*_GREY)
         if strip.stop == plan.columns:
             counts = knots_in_words(strip, inks, wide, canvas.numerals)
-            draw_line(canvas, 0.0, -below + 0.3, counts, SMALLEST, SIGNS, rightward=True)
+            draw_line(canvas, 0.0, -below + 0.3, counts, SMALLEST, base=SIGNS, rightward=True)
         canvas.restoreState()
     canvas.showPage()
 

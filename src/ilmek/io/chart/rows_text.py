@@ -22,7 +22,7 @@ from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
 from ilmek.io.chart.printing import quality_of, size_of
-from ilmek.io.chart.symbols import signs_of_codes, symbols
+from ilmek.io.chart.symbols import NO_SIGN, signs_of_codes, symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import DEFAULT, Sentence, in_language, noun, translated
@@ -68,8 +68,9 @@ def header(chart: Chart, split: str, direction: str) -> str:
     size, quality, tied = chart.size, chart.quality, chart.tied
     signs = symbols(chart.yarns)
     about = Sentence("rows.text", size=size_of(size), quality=quality_of(quality), knot=noun(chart.knot))
-    bare = ("bare",) if split == "runs" and chart.cells is not None else ()
-    comments = (about, *(Sentence(f"rows.text-{part}") for part in ("signs", split, f"more-{split}", *bare)))
+    comments = (about, *(Sentence(f"rows.text-{part}") for part in ("signs", split, f"more-{split}")))
+    if split == "runs" and chart.cells:
+        comments = (*comments, Sentence("rows.text-plain", sign=NO_SIGN))
     lines = [
         MAGIC,
         *(f"# {translated(comment)}" for comment in comments),

@@ -34,11 +34,15 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
     """The control program that weaves a programme's carpet, and others that are no larger.
 
     cycle  of the controller's task [s]
-    Raises LoomError for a row of more than MOST_COLUMNS knots.
+    Raises LoomError for a row of more than MOST_COLUMNS knots, and for heads that would have to stand aside.
     """
     setup = programme.setup
     if setup.columns > MOST_COLUMNS:
         raise LoomError(f"a row of {setup.columns} knots", allowed=f"at most {MOST_COLUMNS} for a PLC")
+    if setup.heads > 1 and setup.row_knots is not None:
+        given = f"a programme with cells without a knot, for {setup.heads} heads"
+        do = "weave it with --heads 1, or a rectangle"
+        raise LoomError(given, allowed="heads that tie in every phase: no program of a PLC leads a head aside", do=do)
     size = size_of(programme, cycle)
     drives = drive_units(setup, cycle)
     records = (*structures(size), *([axis_structure()] if drives else []))

@@ -22,7 +22,7 @@ _CARD = (
     PageColumn(Sentence("order.knots"), 420.0, end=True),
     PageColumn(Sentence("order.lots"), ROOM, end=True),
 )
-_SIGNED = ("approved", "changes", "signed")
+_SIGNED = ("order.approved", "order.changes", "order.signed")
 
 
 def write_approval(path: Path, offer: Offer) -> None:
@@ -47,7 +47,7 @@ def _whole(page: OrderPage, carpet: OfferedCarpet) -> None:
     page.facts(carpet_facts(carpet), LEFT + wide + 14.0, 66.0)
     page.y -= 20.0
     for key in _SIGNED:
-        page.write(LEFT + wide + 14.0, page.y, Sentence(f"order.{key}"), 9)
+        page.write(LEFT + wide + 14.0, page.y, Sentence(key), 9)
         page.rule(page.y - 22.0, LEFT + wide + 14.0, ROOM - wide - 14.0)
         page.y -= 44.0
     page.y = top - high - 12.0

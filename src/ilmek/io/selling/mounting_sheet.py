@@ -61,12 +61,12 @@ def _draw(page: OrderPage, chart: Chart, made: Mounting) -> None:
     for warp in range(warps + 1):
         x = left - _SELVEDGE + (wide + 2 * _SELVEDGE) * warp / warps
         canvas.line(x, low - _ENDS, x, top + _ENDS)
-    for y, key in ((top + _ENDS, "warp-beam"), (low - _ENDS - _BEAM, "cloth-beam")):
+    for y, key in ((top + _ENDS, "order.warp-beam"), (low - _ENDS - _BEAM, "order.cloth-beam")):
         canvas.setFillGray(0.85)
         canvas.setStrokeGray(0.3)
         canvas.setLineWidth(0.8)
         canvas.roundRect(left - 40.0, y, wide + 80.0, _BEAM, 5.0, stroke=1, fill=1)
-        _centred(page, left + wide / 2, y + 4.5, Sentence(f"order.{key}"))
+        _centred(page, left + wide / 2, y + 4.5, Sentence(key))
     canvas.drawImage(ImageReader(_pale(chart)), left, low, wide, long)
     canvas.setLineWidth(1.0)
     canvas.rect(left, low, wide, long, stroke=1, fill=0)

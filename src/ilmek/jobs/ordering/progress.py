@@ -4,6 +4,7 @@ from datetime import date
 from pathlib import Path
 
 from ilmek.carpet.chart import Chart
+from ilmek.errors import LoomError
 from ilmek.io.call_state import DamagedStateError, chart_digest, read_state, state_file
 from ilmek.io.carpet_record import read_record
 from ilmek.io.journal_folder import JOURNAL
@@ -31,10 +32,13 @@ NOT_BEGUN = WovenRows(0, "", "")
 def woven_rows(chart: Chart, run: Path | None) -> WovenRows:
     """The rows that are woven, by the journal in the folder of a run, else by a call of the chart.
 
-    Raises LoomError for a folder without a journal.
+    Raises LoomError for a folder without a journal, and for the run of another carpet.
     """
     if run is not None:
         found = run_status(run)
+        if found.get("rows", chart.rows) != chart.rows:
+            given = f"the run in {run} weaves {found['rows']} rows, the carpet has {chart.rows}"
+            raise LoomError(given, do="give the run of this carpet: --run NAME=DIR")
         complete = found["state"] == state_name(PackState.COMPLETE)
         row = found.get("row", 1)
         done = chart.rows if complete else min(chart.rows, int(str(row))) - 1

@@ -3,6 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
@@ -44,9 +45,14 @@ class OrderResult:
     lines: tuple[OrderLine, ...]
     offer: Offer
     woven: tuple[WovenRows, ...]
-    codes: tuple[tuple[str, ...], ...]
-    files: tuple[str, ...]
+    codes: tuple[tuple[str, ...], ...] = ()
+    files: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
+
+    @property
+    def lots(self) -> dict[str, str]:
+        """The dye lot in stock of each yarn."""
+        return {yarn.name: yarn.lot for yarn in self.plan.inputs.looms_file.yarns if yarn.lot}
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -96,26 +102,39 @@ def work_order(
         offer = offer_of(plan, lines)
         by_name = dict(zip((order.name for order in orders.orders), folders, strict=True))
         woven = tuple(woven_rows(line.charted.chart, runs.get(line.name)) for line in lines)
-        languages = orders.workshop_language, orders.language
-        lots = {yarn.name: yarn.lot for yarn in plan.inputs.looms_file.yarns if yarn.lot}
-        terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, lots, signer)
-        files, codes, left_out = list[str](), list[tuple[str, ...]](), list[str]()
-        for number, (line, rows) in enumerate(zip(lines, woven, strict=True)):
-            own, share = by_name[line.name], 0.5 / len(lines)
-            on = progress.part(0.4 + number * share, 0.4 + (number + 1) * share, line.name)
-            with made.folder(own) as work:
-                names, records = write_workshop(line, terms, rows, work, before=own, left_out=left_out, progress=on)
-            files += [str(own / name) for name in names]
-            codes.append(tuple(str(code_of(one)) for one in records))
-        names = ["quotation.pdf", "approval.pdf", "colour-card.pdf"] if lines else []
-        files = [*(str(folder / OFFER / name) for name in (*names, ORDER_DATA)), *files]
-        done = OrderResult(orders, plan, lines, offer, woven, tuple(codes), tuple(files), tuple(left_out))
-        with made.folder(folder / OFFER) as work, in_language(orders.language):
-            if lines:
-                write_quotation(work / names[0], offer)
-                write_approval(work / names[1], offer)
-                write_card(work / names[2], _shelf(lines), lots, offer.reference)
-            write_json(work / ORDER_DATA, order_json(done))
+        done = OrderResult(orders, plan, lines, offer, woven)
+        done = _write_workshops(done, by_name, made, signer, progress.part(0.4, 0.9))
+        return _write_offer(done, folder / OFFER, made)
+
+
+def _write_workshops(
+    done: OrderResult, folders: Mapping[str, Path], made: Outputs, signer: object, progress: Progress
+) -> OrderResult:
+    """The result with the files and the codes of the folders of all carpets."""
+    orders = done.orders
+    languages = orders.workshop_language, orders.language
+    terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, done.lots, signer)
+    files, codes, left_out = list[str](), list[tuple[str, ...]](), list[str]()
+    for number, (line, rows) in enumerate(zip(done.lines, done.woven, strict=True)):
+        own, count = folders[line.name], len(done.lines)
+        on = progress.part(number / count, (number + 1) / count, line.name)
+        with made.folder(own) as work:
+            names, records = write_workshop(line, terms, rows, work, before=own, left_out=left_out, progress=on)
+        files += [str(own / name) for name in names]
+        codes.append(tuple(str(code_of(one)) for one in records))
+    return replace(done, codes=tuple(codes), files=tuple(files), left_out=tuple(left_out))
+
+
+def _write_offer(done: OrderResult, folder: Path, made: Outputs) -> OrderResult:
+    """The result with the papers for the customer before the other files."""
+    names = ["quotation.pdf", "approval.pdf", "colour-card.pdf"] if done.lines else []
+    done = replace(done, files=(*(str(folder / name) for name in (*names, ORDER_DATA)), *done.files))
+    with made.folder(folder) as work, in_language(done.orders.language):
+        if names:
+            write_quotation(work / names[0], done.offer)
+            write_approval(work / names[1], done.offer)
+            write_card(work / names[2], _shelf(done.lines), done.lots, done.offer.reference)
+        write_json(work / ORDER_DATA, order_json(done))
     return done
 
 

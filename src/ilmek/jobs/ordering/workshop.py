@@ -27,6 +27,9 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.sentences import Sentence, in_language, translated
 
+_FIBRES = {"wool": "order.fibre-wool", "cotton": "order.fibre-cotton", "silk": "order.fibre-silk"}
+"""What the label names each material by."""
+
 MOUNTING, WAGES, STRIKE_OFF = "mounting.pdf", "wages.pdf", "strike-off"
 
 
@@ -124,7 +127,7 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
 
 def _label_facts(found: JsonObject, line: OrderLine) -> list[tuple[str, str]]:
     shares = {part["material"]: f"{100 * part['share']:.0f} %" for part in found["fibre"]}
-    fibre = ", ".join(f"{translated(Sentence(f'order.fibre-{name}'))} {share}" for name, share in shares.items())
+    fibre = ", ".join(f"{translated(Sentence(_FIBRES[name]))} {share}" for name, share in shares.items())
     return [
         (Sentence("order.size"), size_of(line.charted.chart.size)),
         (Sentence("order.knots"), f"{found['design']['knots']:,}".replace(",", "\u202f")),

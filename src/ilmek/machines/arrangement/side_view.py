@@ -39,7 +39,7 @@ from ilmek.machines.arrangement.spans import (
 )
 from ilmek.machines.shedding.tree import front_of
 from ilmek.machines.warp_tension.cylinders import spacer_tube
-from ilmek.machines.warp_tension.tree import ARM_PLAY, hangs, reach_of
+from ilmek.machines.warp_tension.tree import ARM_PLAY, motor_reach, reach_of
 from ilmek.machines.weaver.carriage_drive import motor_corner
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
@@ -68,7 +68,7 @@ ABOVE_CYLINDER = 50 * mm
 _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
 
-_COLUMN_ROOM = ((150 * mm, 150 * mm), (math.inf, 220 * mm))
+_COLUMN_ROOM = ((150 * mm, 150 * mm), (math.inf, 320 * mm))
 """Half of the width of a cylinder's reducer, at most, and least room of the columns beside it [m]: looms with larger
 reducers have wider columns; assumed by this project.
 """
@@ -160,7 +160,7 @@ class SideView:
     compensator   of the warps' tension, between back rest and upper cylinder
     pile          legs of the knots in front of the warps [m]      heads  None where weavers tie
     reducer       what a cylinder's reducer takes across its shaft, to the columns and down [m]
-    hangs         from the axis of the spacer to the end of its motor [m]
+    motor_reach         from the axis of the spacer to the end of its motor [m]
     """
 
     room: ShedRoom
@@ -176,7 +176,7 @@ class SideView:
     roll: float
     pile: float
     reducer: float
-    hangs: float
+    motor_reach: float
     heads: HeadsView | None = group()
 
     front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
@@ -248,7 +248,7 @@ class SideView:
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
         under = self.reducer + max(_UNDER_REDUCER, _UNDER_LARGE * self.reducer)
-        motor = self.spacer.at.imag - self.hangs - _UNDER_MOTOR
+        motor = self.spacer.at.imag - self.motor_reach - _UNDER_MOTOR
         return min(self.lower.at.imag - max(self.roll + ABOVE_FLOOR, under), motor)
 
     @property
@@ -308,7 +308,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         roll=roll,
         pile=head.drawn / 2 if head else pile_leg(task),
         reducer=reducer,
-        hangs=hangs(cylinder) if cylinder else 0.0,
+        motor_reach=motor_reach(cylinder) if cylinder else 0.0,
         heads=heads,
     )
 

@@ -194,11 +194,22 @@ def cylinder_positions(loom: LoomDesign) -> dict[str, Placement]:
     return {name: placement(0.0, at.imag, at.real).after(ALONG_WIDTH) for name, at in axes.items()}
 
 
+def _eyes(loom: LoomDesign) -> Iterator[tuple[Cylinder, Placement]]:
+    design, axes = loom.warp_tension, cylinder_positions(loom)
+    for own in () if design.params.by_hand else cylinders(design):
+        yield own, axes[own.name].after(IN_LOOM[own.name].eye(design, own))
+
+
+def arms_before(loom: LoomDesign) -> float:
+    """Room of all columns of a side along the width, before the eyes of the torque arms [m]."""
+    eyes = (abs(float(eye.origin[0])) for _, eye in _eyes(loom))
+    return min(eyes, default=math.inf) - HOLDER_LENGTH - brackets_of(loom).face
+
+
 def _arm_eyes(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[tuple[Cylinder, Placement, float]]:
     """Cylinders with the faces of the eyes of their torque arms, and how far these are before the columns [m]."""
-    face, design = max(frame.beside(made.face)) + frame.column.side / 2, loom.warp_tension
-    for own in () if design.params.by_hand else cylinders(design):
-        eye = cylinder_positions(loom)[own.name].after(IN_LOOM[own.name].eye(design, own))
+    face = max(frame.beside(made.face)) + frame.column.side / 2
+    for own, eye in _eyes(loom):
         yield own, eye, abs(float(eye.origin[0])) - face
 
 

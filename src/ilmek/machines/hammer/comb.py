@@ -1,7 +1,11 @@
 """The comb: its mass, its leaves, and how it presses the fell from edge to edge.
 
-A bar of h x b across the width (h along the beat) with a leaf in each gap of the warps: E I = E b h^3 / 12. A leaf is a
-cantilever with the force of one warp at its end: stress 6 F a / (t h^2), sag 4 F a^3 / (E t h^3).
+A bar of h x b across the width (h along the beat) with a leaf in each gap of the warps, bonded in a slot s deep and l
+high in its lower edge, of which the bar counts as without the lands between:
+
+    A = b h - s l,    A y = b h h/2 - s l l/2,    I = b h^3/12 + b h (y - h/2)^2 - s l^3/12 - s l (y - l/2)^2
+
+A leaf is a cantilever with the force of one warp at its end: stress 6 F a / (t h^2), sag 4 F a^3 / (E t h^3).
 """
 
 from dataclasses import replace
@@ -40,8 +44,35 @@ BEHIND = 5 * mm
 """Reach of the leaves behind the warps [m]: assumed by this project."""
 
 
+ABOVE_PILE = 12 * mm
+"""Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
+
+SLOT = 3 * mm
+"""Depth of the slots that hold the leaves at their pitch, at most a fourth of the bar [m]; assumed by this project."""
+
+
+def bar_low(params: HammerParams) -> float:
+    """Lower edge of the bar over that of the leaves [m]: on crank-rockers it is above the pile."""
+    return ABOVE_PILE if params.drive == "linkage" else 0.0
+
+
+def slot_of(params: HammerParams) -> tuple[float, float]:
+    """Depth and height of a leaf's slot in the bar [m]."""
+    high = min(params.leaf_height - bar_low(params), params.depth)
+    return (min(SLOT, params.comb_thickness / 4), high) if high > 0 else (0.0, 0.0)
+
+
+def second_moment(params: HammerParams) -> tuple[float, float]:
+    """Second moment of area of the bar [m^4], and from its neutral axis to the farther edge [m]."""
+    high, (deep, tall) = params.depth, slot_of(params)
+    full, cut = params.comb_thickness * high, deep * tall
+    axis = (full * high / 2 - cut * tall / 2) / (full - cut)
+    moment = full * (high**2 / 12 + (axis - high / 2) ** 2) - cut * (tall**2 / 12 + (axis - tall / 2) ** 2)
+    return moment, max(axis, high - axis)
+
+
 def comb_mass(params: HammerParams) -> float:
-    """Mass of bar and leaves [kg]; a leaf reaches `BEHIND` the fell."""
+    """Mass of bar and leaves [kg]; a leaf reaches `BEHIND` the fell, and fills its slot."""
     bar = params.cloth.width * params.depth * params.comb_thickness
     leaves = (params.cloth.warps - 1) * (params.reach + BEHIND) * params.leaf_height * params.leaf
     return (bar + leaves) * params.density
@@ -49,7 +80,8 @@ def comb_mass(params: HammerParams) -> float:
 
 def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
     """The comb pressing with a force [N] for each warp; the fell as stiff as it is at that force."""
-    rigidity = params.modulus * params.comb_thickness * params.depth**3 / 12
+    moment, edge = second_moment(params)
+    rigidity = params.modulus * moment
     foundation = fabric.rate(float(fabric.spacing(force))) / params.cloth.warp_pitch
     width = params.cloth.width
     ends = (params.inset, width - params.inset) if params.support_count > 1 else (width / 2,) * 2
@@ -63,7 +95,7 @@ def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
         mass=comb_mass(params),
         rigidity=rigidity,
         foundation=foundation,
-        stress=params.modulus * curvature * params.depth / 2,
+        stress=params.modulus * curvature * edge,
         leaf_stress=6 * force * line.most * params.reach / leaf,
         leaf_sag=4 * force * line.most * params.reach**3 / (params.modulus * leaf * params.leaf_height),
     )

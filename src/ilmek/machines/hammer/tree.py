@@ -18,7 +18,7 @@ from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, loops, on_rocker, rocker_position
 from ilmek.machines.hammer.axis import CARRIAGE_MASS
-from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
+from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID, bar_low, slot_of
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import bracket
 from ilmek.machines.hammer.params import STEEL, HammerParams
@@ -32,12 +32,16 @@ from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import in_mm, mm
+from ilmek.sentences import Sentence
+from ilmek.units import in_mm, mm, um
 
 COMB = "hammer/comb"
 """Body of the comb."""
 
 MOTOR, BRAKE, AXIS = "hammer/motor", "hammer/motor-brake", "hammer/axis"
+
+BONDED = "bonded in its slot"
+"""How a leaf is held."""
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
@@ -45,9 +49,6 @@ AXIS_SIDE = 80 * mm
 
 BLOCK_HEIGHT, BLOCK_DEPTH = 20 * mm, 20 * mm
 """Carriage of a vertical axis: height and least depth [m]; assumed by this project."""
-
-ABOVE_PILE = 12 * mm
-"""Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
 
 ABOVE_HEADS = 90 * mm
 """Lower end of the axes over the fell [m], where it is not given: above heads that knot; assumed by this project."""
@@ -64,8 +65,7 @@ def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
 
     On crank-rockers the bar is above the pile, so that it may stand nearer to the warps, clear of the coupler.
     """
-    front, deep = params.reach, params.comb_thickness
-    low = ABOVE_PILE if params.drive == "linkage" else 0.0
+    front, deep, low = params.reach, params.comb_thickness, bar_low(params)
     bar = rectangle(front, front + deep, low, low + params.depth)
     comb = rectangle(-BEHIND, front, 0.0, params.leaf_height), bar
     ballast = params.ballast or 0.0
@@ -96,13 +96,44 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     """Bar and leaves, the bar's ballast before it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
     leaf, bar, *ballast = outline(params)
-    number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
+    number, pitch, (deep, tall) = params.cloth.warps - 1, params.cloth.warp_pitch, slot_of(params)
+    middle, stations = placement(z=-params.cloth.width / 2), _leaves(number, pitch, params.leaf)
+    if deep:  # a tang in its slot
+        corner = complex(params.reach, bar_low(params))
+        leaf = np.array([*leaf[:2], *(corner + np.array([0.0, deep, deep + 1j * tall, 1j * tall])), *leaf[2:]])
+        leaf = leaf[abs(leaf - np.roll(leaf, 1)) > um]
+    process = WELDED if params.drive == "linkage" else "machined link"
+    sizes = {"width": in_mm(params.leaf), "deep": in_mm(deep), "pitch": in_mm(pitch)}
+    slots = Sentence("sheet.leaf-slots", number=str(number), **sizes)
+    shape, title = _slotted(params, bar, stations), "comb of the hammer"
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
-        Occurrence(replace(across(BAR_ID, "comb of the hammer", WELDED, bar, wide, steel), machined=True), middle),
-        Occurrence(replace(leaves, yarns=True), _leaves(number, params.cloth.warp_pitch, params.leaf)),
+        Occurrence(
+            Part(BAR_ID, title, process, shape, steel, machined=True, notes=(slots,) if deep else ()), (middle,)
+        ),
+        Occurrence(replace(leaves, yarns=True, fixing=BONDED), stations),
     )
     return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))
+
+
+def _slotted(params: HammerParams, bar: ComplexArray, stations: Sequence[Placement]) -> Sum:
+    """The bar along the width from z = 0: with a slot for each leaf at its face to the warps, above them whole."""
+    (low, high), wide, (deep, tall) = _corners(bar), params.cloth.width, slot_of(params)
+    begins = np.array([place.origin[2] for place in stations]) + wide / 2
+    notch = np.array([0.0, deep, deep, 0.0]) - 1j * np.array([0.0, 0.0, params.leaf, params.leaf])
+    edge = (notch - 1j * begins[:, None]).ravel()
+    back = high.real - low.real
+    section = low.real + np.array([0.0, *edge, -1j * wide, back - 1j * wide, back])
+    upright = placement(0.0, low.imag, 0.0, about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+    above = rectangle(low.real, high.real, low.imag + tall, high.imag)
+    slots = (Placed(Prism(Profile(polygon(section)), tall), (upright,)),) if deep else ()
+    whole = (Placed(Prism(Profile(polygon(above)), wide)),) if high.imag - low.imag > tall else ()
+    return Sum((*slots, *whole))
+
+
+def _corners(points: ComplexArray) -> tuple[complex, complex]:
+    """Lower and upper corner of a rectangle [m]."""
+    return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
 
 
 @lru_cache(maxsize=16)

@@ -55,6 +55,9 @@ HUB = 1.7 * mm
 BONDED = "bonded with epoxy resin"
 """How parts of a few grams are held that have no room for screws."""
 
+ELBOW_SCREWS = "its maker's screws, through the link"
+"""How a servo stands in an elbow."""
+
 EDGE = 3 * mm
 """Of the plate about a sleeve [m]; assumed by this project."""
 
@@ -130,7 +133,7 @@ def sleeve(levels: DriveLevels, hole: float) -> Occurrence:
     outer = hole + 2 * WALL
     pipe = Placed(tube(outer, WALL, levels.top - levels.first), (placement(z=levels.first),))
     ring = Placed(_pulley(outer), (placement(z=levels.first),))
-    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)))
+    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)), BONDED)
 
 
 def shaft(levels: DriveLevels, hole: float) -> tuple[Occurrence, Occurrence]:
@@ -220,7 +223,7 @@ def _plate(
     the centre gripper's axis too.
     """
     outer, pivot, middle = motion.hole + 2 * WALL, head.arm.pivot, head.section.middle
-    near, far = pivot.imag - outer / 2 - EDGE, params.room.face
+    far = params.room.face
     half = middle - pivot.real + outer / 2 + EDGE
     bores = [Hole(at, outer / 2) for at in both(head, pivot)]
     if far is None:
@@ -228,6 +231,7 @@ def _plate(
         axes = [at for number in servos for at in both(head, servo_axis(params, head, motion, number))]
         bores += [Hole(at, SERVO_SHAFT / 2 + ROOM) for at in axes]
         far, half = max(rear, room + max(at.imag for at in axes)), max(half, params.room.aside + room)
+    near = min(hole.at.imag - hole.radius for hole in bores) - EDGE
     outline = polygon(rectangle(2 * half, far - near).points + complex(middle, (near + far) / 2))
     part = Part(ARM_PLATE, "plate of the arms", "machined link", Prism(drilled(outline, bores), PLATE), ALUMINIUM)
     return Occurrence(part, (placement(z=levels.covered),))

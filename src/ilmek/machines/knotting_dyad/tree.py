@@ -21,6 +21,7 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.arm_drives import (
     ALUMINIUM,
     ELBOW_BELT,
+    ELBOW_SCREWS,
     NAME,
     SHAFT,
     behind,
@@ -303,7 +304,7 @@ def _drive_parts(name: str, drive: JointDrive) -> Iterator[Part]:
 
 def _elbow_servo(drive: JointDrive, loads: tuple[Occurrence, ...], x: float) -> Occurrence:
     """The servo in an elbow at x [m]: the load whose mass is given, which the forces count."""
-    part = tuple(_drive_parts(SERVOS[1], drive))[-1]
+    part = replace(tuple(_drive_parts(SERVOS[1], drive))[-1], fixing=ELBOW_SCREWS)
     assert part.purchase is not None
     if not loads:
         return Occurrence(replace(part, purchase=replace(part.purchase, mass=0.0)), (placement(x),))

@@ -262,7 +262,7 @@ def _cylinder(  # noqa: PLR0917
     load = bare - 1j * weight
     size, inertia = abs(load), float(uniform.tube_inertia(outer, inner))
     bent = (params.span, params.modulus, inertia)
-    reaction = float(uniform.reaction(size, params.span)) + hung_load(design, torque)
+    reaction = float(uniform.reaction(size, params.span)) + drive_load(design, torque)
     slope = float(uniform.slope_max(size, *bent))
     bearing = bearing_for(params, reaction, torque, slope)
     lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
@@ -290,7 +290,7 @@ def _cylinder(  # noqa: PLR0917
     )
 
 
-def hung_load(design: WarpTensionDesign, torque: float) -> float:
+def drive_load(design: WarpTensionDesign, torque: float) -> float:
     """What a worm reducer and the force of its torque arm add to the bearing beside it, at most [N]; its middle is not
     farther beyond the bearing than the hollow shaft is long.
     """

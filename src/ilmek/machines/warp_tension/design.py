@@ -221,8 +221,8 @@ def lightest_tube(params: WarpTensionParams, tubes: Iterable[Tube]) -> Tube:
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:
     """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder.
 
-    Where the ratio is free, it is that of a single worm if a stepper turns it: a first stage doubles the length. Else
-    the least of those with the motor of least power, or that a hand can turn.
+    Where the ratio is free, it is that of a single worm if a stepper turns it, else the least of those with the motor
+    of least power, or that a hand can turn.
     """
     ratios = RATIOS if params.ratio is None else (params.ratio,)
     reducers = [Reducer(ratio, params.efficiency) for ratio in ratios]

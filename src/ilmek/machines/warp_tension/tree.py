@@ -26,7 +26,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.part.worm_reducer import BEFORE, eye, hung, journal, worm_reducer
+from ilmek.part.worm_reducer import BEFORE, eye, inlet, journal, motor_in, reducer_position, worm_reducer
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
@@ -40,7 +40,7 @@ WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 
 
 @record
-class WormHanging:
+class WormMounting:
     """How the worm reducer of a cylinder hangs on its shaft: direction of its torque arm across the cylinder's axes,
     x + i y, to the column, where the drive is at +z; flipped  the drive is at -z.
     """
@@ -54,8 +54,8 @@ class WormHanging:
         return _side(z=0.0, flipped=self.flipped).after(eye(row, middle, self.arm))
 
 
-ON_STAND = WormHanging(-1.0)
-IN_LOOM = {UPPER: WormHanging(1j), SPACER: WormHanging(1j, flipped=True), LOWER: WormHanging(-1j)}
+ON_STAND = WormMounting(-1.0)
+IN_LOOM = {UPPER: WormMounting(1j), SPACER: WormMounting(1j, flipped=True), LOWER: WormMounting(-1j)}
 """In a loom the cylinders' x is up, their y to the front. Spacer and lower cylinder are too near for both reducers on
 one side; the motor of the lower one stands up, those of the others hang."""
 
@@ -63,12 +63,12 @@ one side; the motor of the lower one stands up, those of the others hang."""
 def tree(
     design: WarpTensionDesign,
     positions: dict[str, Placement] | None = None,
-    hangings: Mapping[str, WormHanging] = MappingProxyType({}),
+    mountings: Mapping[str, WormMounting] = MappingProxyType({}),
 ) -> Tree:
     """The bodies of the three cylinders.
 
     positions  of each cylinder's axes by its name; default: one above the other, as on their stand
-    hangings   of their worm reducers; default: as on their stand
+    mountings   of their worm reducers; default: as on their stand
     """
     shells, drives = _shells(design), _drives(design)
     where = positions or {
@@ -77,7 +77,7 @@ def tree(
     bodies = (
         body
         for own, shell in zip(cylinders(design), shells, strict=True)
-        for body in _bodies(design, own, shell, drives[own.name], where[own.name], hangings.get(own.name, ON_STAND))
+        for body in _bodies(design, own, shell, drives[own.name], where[own.name], mountings.get(own.name, ON_STAND))
     )
     return Tree(tuple(bodies))
 
@@ -106,7 +106,7 @@ def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
             far,
             max(own.flange, reach_of(design), wheel),
             screws,
-            0.0 if flange else hangs(design),
+            0.0 if flange else motor_reach(design),
             None if flange else ON_STAND.eye(design, own),
         )
         for own in cylinders(design)
@@ -130,7 +130,7 @@ def _bodies(  # noqa: PLR0917
     shell: Part,
     drive: tuple[Part, ...],
     position: Placement,
-    hanging: WormHanging,
+    mounting: WormMounting,
 ) -> tuple[RigidBody, ...]:
     """A cylinder with its ends, its bearings on the frame's brackets, and its drive: reducer, then what turns it.
 
@@ -143,7 +143,7 @@ def _bodies(  # noqa: PLR0917
     plain = (Occurrence(shell, (placement(z=-params.span / 2),)),)
     shells = plain if name == SPACER else on_cylinder(cylinder, shell, params)
     far, inside = params.span / 2 + params.stub, params.span / 2 - _spigot(cylinder)[1]
-    right, left = (_side(z=inside, flipped=hanging.flipped is own) for own in (True, False))
+    right, left = (_side(z=inside, flipped=mounting.flipped is own) for own in (True, False))
     shape = _end_shape(params, cylinder)
     title = f"shaft end of the {name} cylinder"
     end = replace(_made(f"{name}-end", title, "turned part", shape, STUB), machined=True)  # after it is welded
@@ -169,8 +169,11 @@ def _bodies(  # noqa: PLR0917
     if params.by_hand:
         carried = _on_bracket(params, drive, far + seat.through)
     else:
-        hung_at = _side(z=0.0, flipped=hanging.flipped).after(hung(row, design.ratio, middle, hanging.arm))
-        carried = tuple(Occurrence(part, (hung_at,)) for part in drive)
+        motor = design.motor
+        lies = reducer_position(row, inlet(row, design.ratio, motor), middle, mounting.arm)
+        geared = _side(z=0.0, flipped=mounting.flipped).after(lies)
+        places = geared, geared.after(motor_in(row, design.ratio, motor))
+        carried = tuple(Occurrence(part, (own,)) for part, own in zip(drive, places, strict=True))
     return (*bodies, RigidBody(part_id(f"{name} drive"), carried, positions=(position,)))
 
 
@@ -249,10 +252,13 @@ def flanged(design: WarpTensionDesign) -> Part | None:
     return _drives(design)[UPPER][0] if design.params.by_hand else None
 
 
-def hangs(design: WarpTensionDesign) -> float:
-    """From the axis of a cylinder to the end of its motor, across the shaft [m]."""
-    length = design.motor.length if design.motor else 2 * catalogue.SPECIAL_FACE
-    return _worm(design, cylinders(design)[0])[0].to_motor(design.ratio) + length
+def motor_reach(design: WarpTensionDesign) -> float:
+    """From the axis of a cylinder to the end of its reducer, or of the motor in line with it, across the shaft [m]."""
+    row, length = (
+        _worm(design, cylinders(design)[0])[0],
+        design.motor.length if design.motor else 2 * catalogue.SPECIAL_FACE,
+    )
+    return inlet(row, design.ratio, design.motor) + (0.0 if row.first(design.ratio) else length)
 
 
 def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:

@@ -28,6 +28,7 @@ from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
 from ilmek.sentences import Sentence
 from ilmek.sentences.english import ENGLISH
 from ilmek.units import format_quantity, mm, um
+from ilmek.viz.drawings.like_notches import shortened
 from ilmek.viz.drawings.picture import millimetres
 
 
@@ -155,11 +156,12 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
 
 def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
     """A piece that is turned, sawn or welded, by its machine and the name of its files."""
-    part = piece.part if isinstance(piece.part, Part) else None
+    part, shape = piece.part if isinstance(piece.part, Part) else None, shortened(piece.shape)
+    ends = () if shape is piece.shape else (Sentence("sheet.ends-of-row"),)
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
-        part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
-        (*(part.notes if part else ()), *_row(part, piece.tree), *_welded(part, piece.tree)),
+        part.process if part else "", piece.size, piece.number, shape, piece.volume,
+        (*(part.notes if part else ()), *_row(part, piece.tree), *_welded(part, piece.tree), *ends),
         features=_features(piece.features),
         stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
     )  # fmt: skip
