@@ -198,9 +198,9 @@ def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
     least = rail_ahead(rail, task.drop)
     depth, beam = (rail_middle(loom) + least + loom.side.of_heads.retreated).real, base_section(loom, frame).side
     apart = post_depth(loom, frame) - depth
-    if abs(apart) >= beam + (_FOR_WELDS if apart > 0 else 0.0):
+    if abs(apart) >= beam + _FOR_WELDS:
         return least
-    return least + (apart if apart >= 0 else beam + apart)
+    return least + (apart if apart >= 0 else beam + _FOR_WELDS + apart)
 
 
 def _push(loom: LoomDesign, load: float) -> float:
