@@ -54,9 +54,10 @@ if TYPE_CHECKING:
 ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
 
-_UNDER_REDUCER, _UNDER_LARGE = 140 * mm, 1.05
+_UNDER_REDUCER, _UNDER_LARGE = 140 * mm, ((150 * mm, 1.05), (math.inf, 1.4))
 """The reducer of the lower cylinder above the floor [m]: a foot of the frame of 80 mm has room there; and over the
-reach of a large one, by which more is pulled: the feet are stiffer in proportion; assumed by this project.
+reach of a large one, up to a reach [m], by which more is pulled: the feet are stiffer in proportion, and beside
+wider columns as wide as these; assumed by this project.
 """
 
 _UNDER_MOTOR = 160 * mm
@@ -247,7 +248,8 @@ class SideView:
     @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
-        under = self.reducer + max(_UNDER_REDUCER, _UNDER_LARGE * self.reducer)
+        share = next(share for reach, share in _UNDER_LARGE if self.reducer <= reach)
+        under = self.reducer + max(_UNDER_REDUCER, share * self.reducer)
         motor = self.spacer.at.imag - self.motor_reach - _UNDER_MOTOR
         return min(self.lower.at.imag - max(self.roll + ABOVE_FLOOR, under), motor)
 
