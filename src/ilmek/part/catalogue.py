@@ -99,7 +99,7 @@ def motor(  # noqa: PLR0917
     holes = flange_holes(row)
     if row is not None:
         peak = "holding" if row.kind == STEPPER else "peak"
-        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {flange_text(row)}, {feedback}"
+        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}, {feedback}"
         bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data, holes=holes)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
@@ -191,7 +191,7 @@ def reducer(  # noqa: PLR0917
                 Placed(Prism(Profile(rectangle(face, face), bores), thick), (placement(z=long - thick),)),
             )
         )
-    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {flange_text(row)}") if row else ()
+    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
     data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}, {_holes_text(holes)}", *motors))
     kind = f"right-angle {by.kind}" if across else by.kind
     both = holes, replace(*flange_holes(row), tapped=True, faces=(-1,))
@@ -223,8 +223,7 @@ def _holes_text(holes: HolePattern) -> str:
     return f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on ⌀{circle_of_holes}"
 
 
-def flange_text(row: Motor) -> str:
-    """Flange of a motor with its holes, and its shaft."""
+def _flange_of(row: Motor) -> str:
     (holes,) = flange_holes(row)
     return f"flange {in_mm(row.face)}, {_holes_text(holes)}, shaft {in_mm(row.shaft)}"
 
