@@ -836,6 +836,11 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     assert [row[0] for row in rows] == list(range(1, len(rows) + 1))
     heads = [row for row in rows if row[1] == "head" and row[4] == "6 × as put together before"]
     assert len(heads) == 1
+    fixed = {part["title"]: part["fixing"] for part in listed("parts") if part["fixing"]}
+    assert len(fixed) > 10
+    told = {title: str(row[6]) for row in rows for title in re.findall(r"× ([^;,]+)", str(row[4]))}
+    assert all(fixed[title] in told[title] for title in fixed.keys() & told.keys())
+    assert fixed.keys() - told.keys() == set()
     titles = {
         named.split(" × ", 1)[1].split(", ")[0]
         for row in rows
@@ -893,6 +898,7 @@ def test_each_piece_comes_once_and_what_is_built_is_of_the_pieces_that_come() ->
         step = rest.pop()
         assert not of_pieces(step.bench) or of_pieces(step.bench) == of_pieces([step])
         built += bool(step.bench)
+        assert not step.bench or not step.bench[0].units[0].fastens  # a washer comes onto its shaft
         rest += step.bench
     assert built > 25
     feet = [step for step in steps if step.units[0].pieces[0].part.title == "levelling foot"]
@@ -987,6 +993,7 @@ def test_nouns_of_the_loom_are_turkish_in_turkish_papers() -> None:
     loom = default_design("automated-loom")
     tree = loom_tree(loom)
     nouns = {part.title for part, _ in tree.occurrences()} | {own for body in tree.bodies for own in body.id.split("/")}
+    nouns |= {part.fixing for part, _ in tree.occurrences() if part.fixing}
     for cyclogram in loom.cyclograms:
         nouns |= {track.name for track in cyclogram.tracks}
         nouns |= {segment.name.rstrip(" 0123456789") for track in cyclogram.tracks for segment in track.segments}
