@@ -63,7 +63,7 @@ from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.part.welds import welds_of
 from ilmek.plane.contours import circle, rounded_hull
-from ilmek.report import Paper, Papers, Report, must
+from ilmek.report import Drawing, Paper, Papers, Report, must
 from ilmek.report.scene import SceneMotion
 from ilmek.report.sheet import Schematic
 from ilmek.sentences import in_language, translated
@@ -872,6 +872,18 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     }
     joins = {row["designation"] for row in listed("fasteners") if row["joins"]}
     assert joins == {name for row in rows if row[7] for name in re.findall(r"× ([^,;]+)", str(row[6]))} - turned
+
+
+def test_the_foundation_plan_marks_its_datum_and_names_no_part_that_hangs_on_another() -> None:
+    (section,) = next(paper for paper in papers().pages if paper.name == "foundation").sections
+    assert section.table is not None
+    assert isinstance(section.figure, Drawing)
+    hung = {part["title"] for part in listed("parts") if part["fixing"]}
+    assert hung.isdisjoint(str(row[1]) for row in section.table.rows)
+    origin = [row for row in section.table.rows if row[2] == row[3] == 0]
+    (datum,) = (dot for dot in section.figure.dots if "datum" in dot.label)
+    assert datum.at == 0
+    assert [str(row[0]) for row in origin] == [datum.label.split(",")[0]]
 
 
 def of_pieces(steps: Iterable[Insertion]) -> Counter[tuple[str, tuple[float, ...]]]:

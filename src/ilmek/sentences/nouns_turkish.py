@@ -153,13 +153,16 @@ two screws M4 through the mesh into its counter plate = iki M4 vida örgüden ka
 hangs in its holder, which comes with two screws = iki vidayla gelen tutucusunda asılı
 its ring nut clamps it in its hole in the door = halka somunu onu kapıdaki deliğinde sıkar
 built onto its motor by the maker = üreticisi tarafından motoruna takılı
-lies half in its slot, by cable ties at its ends until the first turn of the warps keeps it = yarısı oluğunda yatar, çözgünün ilk sarımı onu tutana kadar uçlarında kablo bağıyla
+lies half in its slot, by cable ties at its ends until the first turn of the warps keeps it = \
+yarısı oluğunda yatar, çözgünün ilk sarımı onu tutana kadar uçlarında kablo bağıyla
 its hinges on the wall of the cabinet, of its maker = pano duvarında, üreticisinin menteşeleriyle
 its nuts on the studs of the cabinet's wall = somunları pano duvarının saplamalarında
 its end brackets, each with two screws M5, on trough and arm = uç braketleri, ikişer M5 vidayla, oluk ve kol üzerinde
-two screws M6 with washers through the slots of its base into the plate of its stand = tabanının yarıklarından iki pullu M6 vida ayaklığının levhasına
+two screws M6 with washers through the slots of its base into the plate of its stand = \
+tabanının yarıklarından iki pullu M6 vida ayaklığının levhasına
 snaps onto its rail, EN 60715 = rayına geçer, EN 60715
-screws M6 through its slots into the threads of the plate, EN 60715 = yarıklarından M6 vidalar levhanın dişlerine, EN 60715
+screws M6 through its slots into the threads of the plate, EN 60715 = \
+yarıklarından M6 vidalar levhanın dişlerine, EN 60715
 its clamps, each with a screw M8, on the posts = kelepçeleri, her biri bir M8 vidayla, dikmelerde
 halves of its hinges, welded to its post = menteşe yarıları, dikmesine kaynaklı
 its halves welded to the post and to the frame of the door = yarıları dikmeye ve kapının çerçevesine kaynaklı

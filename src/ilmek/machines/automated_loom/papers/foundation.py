@@ -32,7 +32,8 @@ def foundation(tree: Tree) -> Paper:
     datum = min((_plan(piece) for piece in feet), key=lambda spot: spot.real + spot.imag)
     bolts = [piece for piece in pieces if piece.part.purchase and piece.part.purchase.row == ANCHOR.designation]
     held = {roots[piece.body] for piece in (*feet, *bolts)}
-    free = [piece for piece in pieces if piece.box[0][1] < floor + mm and _stands(piece, roots[piece.body], held)]
+    low = (piece for piece in pieces if piece.box[0][1] < floor + mm and not piece.part.fixing)
+    free = [piece for piece in low if roots[piece.body] not in held]
     fixed = sorted((*feet, *bolts, *free), key=lambda piece: (piece.part.id, *_steps(_plan(piece) - datum)))
     heads = (
         Column(Sentence("foundation.number")),
@@ -53,11 +54,6 @@ def foundation(tree: Tree) -> Paper:
     table = Table("foundation", title, heads, rows)
     section = PaperSection(title, (how,), table, boxes=True, figure=_picture(pieces, fixed, datum, floor))
     return Paper("foundation", title, Sentence("foundation.lead"), (section,))
-
-
-def _stands(piece: StandingPart, root: str, held: set[str]) -> bool:
-    """Whether a low piece stands by itself: nothing of its machine is anchored, nor does it hang on another."""
-    return root not in held and not piece.part.fixing
 
 
 def _plan(piece: StandingPart) -> complex:
@@ -83,7 +79,7 @@ def _picture(pieces: Sequence[StandingPart], fixed: Sequence[StandingPart], datu
     for number, piece in enumerate(fixed, 1):
         spot = _plan(piece) - datum
         label = str(number) if abs(spot - before) > _NEAR else ""
-        own = (Sentence("foundation.datum", number=str(number)), "pivot") if spot == 0 else (label, "point")
-        dots.append(Dot(spot, *own))
+        marked = Sentence("foundation.datum", number=str(number)) if spot == 0 else label
+        dots.append(Dot(spot, marked, "point" if spot else "pivot"))
         before = spot
     return Drawing("foundation", Sentence("foundation.picture"), tuple(strokes), tuple(dots), unit="mm")
