@@ -48,7 +48,7 @@ BEFORE = 2.5 * mm
 """From the handler's arm to the opener's points [m]; assumed by this project, as all sizes here."""
 
 TEETH, SHIFT, FACE, BACK, BACKLASH, STUB = 15, 0.125, 5 * mm, 3 * mm, 0.1 * mm, 0.6
-"""Of the pinion, and its profile shift [modules], above which a hob does not undercut it; width of its teeth, the rack's
+"""Of the pinion, and its profile shift [modules], above which a hob does not undercut it; its width, the rack's
 back from the pitch circle, play of the teeth [m], and addendum of the rack [modules]."""
 
 BESIDE = 1.5 * mm
