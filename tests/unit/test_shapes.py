@@ -203,3 +203,54 @@ def test_a_head_that_cannot_cut_two_heights_fails_a_check(tmp_path: Path) -> Non
     two = shaped(chart, ShapeParams(pile=f"{first}=6mm, {second}=loop"))
     assert [(check.ok, check.value) for check in pile_checks(two)] == [(False, 2), (False, two.counts[1])]
     assert pile_checks(shaped(chart, ShapeParams(shape="round"))) == ()
+
+
+def charted(*arguments: str) -> Chart:
+    made = CliRunner().invoke(main, ["chart", *arguments])
+    assert made.exit_code == 0, made.output
+    return read_chart_png(Path(arguments[arguments.index("--out") + 1]) / "chart.png")
+
+
+def test_a_chart_with_cells_on_another_grid_keeps_its_shape_and_buys_no_ground(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    first = charted(str(tmp_path / "disc.png"), "--size", "40x40cm", "--shape", "picture", "--out", str(tmp_path / "a"))
+    chart = str(tmp_path / "a" / "chart.png")
+    half = charted(chart, "--size", "44x44cm", "--quality", "12x12/dm", "--out", str(tmp_path / "b"))
+    assert half.knots.shape == (53, 53)
+    tied = half.knots != NO_KNOT
+    assert half.cells is not None
+    assert {kind.name for kind in half.cells.kinds} == {"knot", OUTSIDE}
+    y, x = np.mgrid[0:53, 0:53] + 0.5
+    far, edge = np.hypot(x - 26.5, y - 26.5), 0.95 * 26.5
+    assert tied[far < edge - 0.8].all()
+    assert not tied[far > edge + 0.8].any()
+    assert half.colours == first.colours == 2
+    assert finished_area(half) == pytest.approx(math.pi * (0.95 * 0.22) ** 2, rel=0.02)
+    (tmp_path / "two.csv").write_text("name,srgb\nClay,#a03020\nNight,#182858\n", encoding="utf-8")
+    other = charted(chart, "--yarns", str(tmp_path / "two.csv"), "--out", str(tmp_path / "c"))
+    assert np.array_equal(other.knots == NO_KNOT, first.knots == NO_KNOT)
+    assert sorted(yarn.name for yarn in map(other.yarns.__getitem__, other.used)) == ["Clay", "Night"]
+
+
+def test_the_plain_rows_of_a_chart_follow_its_grid_and_what_is_shown_of_it(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    area = ["--flat-weave", "41-60", "--out", str(tmp_path / "a")]
+    charted(str(tmp_path / "disc.png"), "--size", "40x40cm", *area)
+    size = ["--size", "40x20cm", "--quality", "20x20/dm", "--fit", "crop", "--out", str(tmp_path / "b")]
+    part = charted(str(tmp_path / "a" / "chart.png"), *size)
+    assert part.cells is not None
+    plain = np.flatnonzero(part.cells.are(PLAIN).all(axis=1))
+    assert part.rows == 40
+    assert len(plain) == 16  # 8 cm of 20 cm
+    assert np.array_equal(plain, np.arange(plain[0], plain[0] + 16))
+
+
+@pytest.mark.parametrize("fit", [("--turn", "90deg"), ("--crop", "10%,10% 90%,90%"), ("--fit", "pad")])
+def test_a_chart_with_cells_that_is_turned_or_cropped_is_refused(tmp_path: Path, fit: tuple[str, str]) -> None:
+    design(tmp_path / "disc.png")
+    charted(str(tmp_path / "disc.png"), "--size", "40x40cm", "--shape", "round", "--out", str(tmp_path / "a"))
+    order = ["chart", str(tmp_path / "a" / "chart.png"), "--size", "40x60cm", *fit, "--out", str(tmp_path / "b")]
+    refused = CliRunner().invoke(main, order)
+    assert refused.exit_code == 2
+    told = " ".join(refused.output.split())
+    assert "chart with cells of its own (knot, outside), turned, cropped or with a border" in told
