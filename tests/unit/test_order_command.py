@@ -174,6 +174,16 @@ def test_every_changed_byte_of_a_record_is_found(worked: tuple[dict[str, Any], P
     assert run("verify", copy).exit_code == 0
 
 
+def test_a_changed_record_is_not_to_be_mended(worked: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
+    text = (worked[1] / "medallion-madder" / "record-1.json").read_text()
+    (tmp_path / "record.json").write_text(text.replace('"knots": 1200', '"knots": 1201'))
+    done = run("verify", tmp_path / "record.json")
+    assert done.exit_code == 3
+    assert "/design/knots was changed: it is now 1201" in done.output
+    assert "do not trust this copy" in done.output
+    assert "its limit" not in done.output
+
+
 def test_what_was_changed_is_named(worked: tuple[dict[str, Any], Path]) -> None:
     made, text = read_record(worked[1] / "medallion-madder" / "record-1.json")
     assert record_faults(made, text) == []
