@@ -123,7 +123,7 @@ def test_slots_that_cut_through_and_tubes_that_are_too_weak_fail_their_checks() 
 
 
 def test_the_thesis_bearing_lives_long_and_stands_safe() -> None:
-    """UCF 207: C 25.7 kN, C0 15.4 kN; 4.6 kN with the tube's weight, the warps standing; by hand: no torque arm."""
+    """UCF 207: C 25.7 kN, C0 15.4 kN; 4.6 kN with the tube's weight, warps standing, no torque arm: a hand winds."""
     found = results(tension_shed="15N", tension_beat="15N", winding="hand")
     load = found["cylinder_reaction"]["upper"]
     assert found["bearing"]["upper"] == "UCF 207"
