@@ -75,7 +75,7 @@ def chart_of_order(
     Raises PictureError, CarpetError or YarnError.
     """
     file = file_key(order.picture)
-    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, with_source)
+    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, order.shape.shape, with_source)
     chart, notes = stages.keep(
         "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
     )
@@ -189,6 +189,10 @@ def _read_file(
     picture = stages.keep(
         "picture", of_picture, lambda: read_picture(order.picture, reading_file, ground=ground, rendering=rendering)
     )
+    if order.shape.cuts(picture.outside) and picture.rim is not None:  # of the picture's colours: no other takes a yarn
+        ground = hex_colour(picture.rim)
+        of_picture = (file, ground, of_picture[2])
+        picture = read_picture(order.picture, ground=ground, rendering=rendering)
     rgb, notes, behind, indices = picture.rgb, picture.notes, picture.ground, picture.indices
     outside, hidden = picture.outside, picture.hidden
     stated = _stated(order, picture)
@@ -219,7 +223,7 @@ def _read_file(
         seen=partial(stages.seen, of_picture),
         scale=scale,
     )
-    if ground is not None and behind is None and not read.fit.padded:
+    if order.fit.ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
     whole = shown_source(prepared) if with_source and stages.with_whole and read.fit.kind == "crop" else None
     if fitting.corners is None and fitting.crop is None:

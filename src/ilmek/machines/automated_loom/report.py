@@ -30,7 +30,6 @@ from ilmek.machines.automated_loom.price_tables import parts_table, price_table,
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
 from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch
-from ilmek.machines.automated_loom.standing_frame import arm_checks
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -199,7 +198,6 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
-        *arm_checks(loom, found.listed.frame),
         *supports(loom, found.listed.frame).checks,
         *(check for rail_support in rail_supports(loom, found.listed.frame) for check in rail_support.checks),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
