@@ -171,11 +171,8 @@ def _require_upright(order: CarpetOrder, read: _ReadPicture) -> _ReadPicture:
     of_hand = replace(order.fit, fit=FitParams().fit, ground=None, width=None, length=None, page=1) != FitParams()
     if read.cells is not None and (of_hand or read.fit.turned or read.fit.padded):
         kinds = ", ".join(kind.name for kind in read.cells.kinds)
-        raise PictureError(
-            f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border",
-            allowed="another size, quality or yarns, which its cells follow",
-            do="chart the design anew, with its shape",
-        )
+        given = f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border"
+        raise PictureError(given, allowed="another size, quality or yarns", do="chart the design anew, with its shape")
     return read
 
 
@@ -323,10 +320,8 @@ def drawn_chart(chart: Chart) -> Rgb:
 
 def _flattened(chart: Chart) -> tuple[str, ...]:
     """A note on the marks of a chart that is read as a drawing."""
-    if not len(chart.overlay):
-        return ()
     halves, juftis = counted(chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
-    return (f"without its {halves} and {juftis}",)
+    return (f"without its {halves} and {juftis}",) if len(chart.overlay) else ()
 
 
 def _is_part(prepared: Rgb, chart: Chart) -> bool:
