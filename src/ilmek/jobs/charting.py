@@ -93,7 +93,6 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = _sized(order, read.size, read.quality).resolved()
-    _require_upright(order, read)
     yarns = (made.yarns, order.dyed, stages.in_shades)
     rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, yarns)
 
@@ -113,9 +112,6 @@ def chart_of_order(
             exact=None if order.reading.tone.changes else read.design.colours,
             progress=progress.part(0.5, 1.0, "chart"),
         )
-        if read.cells is not None:
-            cells = read.cells.on_grid(made_chart.rows, made_chart.columns, read.fit.shown)
-            made_chart = replace(made_chart, cells=cells.merged())
         return _of_indices(made_chart, read, edited=edited)
 
     chart = stages.keep("chart", (key, rest), chart_of)
@@ -123,7 +119,9 @@ def chart_of_order(
 
 
 def _of_indices(chart: Chart, read: "_ReadPicture", *, edited: bool) -> Chart:
-    """The chart in the order of an indexed drawing's creel, else by its knots, with why the indices are not kept."""
+    """The chart with its cells, in the order of an indexed drawing's creel, else by its knots, with why it is not."""
+    if read.cells is not None:
+        chart = replace(chart, cells=read.cells.on_grid(chart.rows, chart.columns, read.fit.shown).merged())
     if read.indices is None:
         return used_first(chart)
     obstacle = "edits name the yarns of the list" if edited else ""
@@ -168,16 +166,14 @@ class _ReadPicture:
     cells: CellMap | None = None
 
 
-def _require_upright(order: CarpetOrder, read: _ReadPicture) -> None:
-    """Raise PictureError for a chart with a map of its cells that was turned, cropped by hand or padded."""
+def _require_upright(order: CarpetOrder, read: _ReadPicture) -> _ReadPicture:
+    """What was read. Raises PictureError for a chart with a map of cells that was turned, cropped by hand or padded."""
     of_hand = replace(order.fit, fit=FitParams().fit, ground=None, width=None, length=None, page=1) != FitParams()
     if read.cells is not None and (of_hand or read.fit.turned or read.fit.padded):
         kinds = ", ".join(kind.name for kind in read.cells.kinds)
-        raise PictureError(
-            f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border",
-            allowed="another size, quality or yarns, which its cells follow",
-            do="chart the design anew, with its shape",
-        )
+        given = f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border"
+        raise PictureError(given, allowed="another size, quality or yarns", do="chart the design anew, with its shape")
+    return read
 
 
 def _read_file(
@@ -249,7 +245,9 @@ def _read_chart(
     seen = partial(ANEW.seen, None)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source, seen=seen)
     whole = shown_source(prepared) if with_source and read.fit.kind == "crop" else None
-    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole, cells=chart.cells)
+    return _require_upright(
+        order, replace(read, notes=(*_flattened(chart), *read.notes), whole=whole, cells=chart.cells)
+    )
 
 
 def _read(
@@ -322,10 +320,8 @@ def drawn_chart(chart: Chart) -> Rgb:
 
 def _flattened(chart: Chart) -> tuple[str, ...]:
     """A note on the marks of a chart that is read as a drawing."""
-    if not len(chart.overlay):
-        return ()
     halves, juftis = counted(chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
-    return (f"without its {halves} and {juftis}",)
+    return (f"without its {halves} and {juftis}",) if len(chart.overlay) else ()
 
 
 def _is_part(prepared: Rgb, chart: Chart) -> bool:
