@@ -194,7 +194,7 @@ ORDERED = {
     "reducer": r"(right-angle )?(planetary|worm) reducer \d+:1(?=.*(shaft \d|for a motor))",
     "servo": r"servo \d+ W, \d+ rpm, .*peak .*flange \d+.* mm, shaft \d+.*, absolute multi-turn encoder|to measure: .*",
     "stepper": r"stepper NEMA \d+, .*holding .*flange \d+.* mm, shaft \d+.*, absolute multi-turn encoder",
-    "bearing": r"\d{4}-2RS, DIN 625-1|UCF \d{3}, ISO 9628.*|HF\d+|CF \d+.*|idler .*|NU .*",
+    "bearing": r"\d{4,5}-2RS, DIN 625-1|UCF \d{3}, ISO 9628.*|HF\d+|CF \d+.*|idler .*|NU .*",
     "toothed pulley": r"pulley .* \d+ teeth, \d+ mm wide.*bore \d+.*",
     "linear axis": r".*(\d+ mm wide|linear axis).*, stroke at least \d.*",
     "holding brake": r".*, built by its maker onto .+",

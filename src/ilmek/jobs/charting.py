@@ -5,7 +5,10 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from scipy import ndimage
+
 from ilmek.arrays import Indices, Rgb
+from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart, used_first
 from ilmek.carpet.chart_making import chart_of_design
 from ilmek.carpet.creel import in_creel_order
@@ -90,6 +93,7 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = _sized(order, read.size, read.quality).resolved()
+    _require_upright(order, read)
     yarns = (made.yarns, order.dyed, stages.in_shades)
     rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, yarns)
 
@@ -109,6 +113,9 @@ def chart_of_order(
             exact=None if order.reading.tone.changes else read.design.colours,
             progress=progress.part(0.5, 1.0, "chart"),
         )
+        if read.cells is not None:
+            cells = read.cells.on_grid(made_chart.rows, made_chart.columns, read.fit.shown)
+            made_chart = replace(made_chart, cells=cells.merged())
         return _of_indices(made_chart, read, edited=edited)
 
     chart = stages.keep("chart", (key, rest), chart_of)
@@ -147,7 +154,7 @@ def file_key(path: Path) -> tuple[Path, int, int]:
 @record
 class _ReadPicture:
     """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
-    shows; indices of an indexed picture before it was turned or cropped.
+    shows; indices of an indexed picture before it was turned or cropped; cells of a chart, on its own grid.
     """
 
     size: CarpetSize
@@ -158,6 +165,19 @@ class _ReadPicture:
     source: Rgb | None
     whole: Rgb | None = None
     indices: Indices | None = None
+    cells: CellMap | None = None
+
+
+def _require_upright(order: CarpetOrder, read: _ReadPicture) -> None:
+    """Raise PictureError for a chart with a map of its cells that was turned, cropped by hand or padded."""
+    of_hand = replace(order.fit, fit=FitParams().fit, ground=None, width=None, length=None, page=1) != FitParams()
+    if read.cells is not None and (of_hand or read.fit.turned or read.fit.padded):
+        kinds = ", ".join(kind.name for kind in read.cells.kinds)
+        raise PictureError(
+            f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border",
+            allowed="another size, quality or yarns, which its cells follow",
+            do="chart the design anew, with its shape",
+        )
 
 
 def _read_file(
@@ -229,7 +249,7 @@ def _read_chart(
     seen = partial(ANEW.seen, None)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source, seen=seen)
     whole = shown_source(prepared) if with_source and read.fit.kind == "crop" else None
-    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole)
+    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole, cells=chart.cells)
 
 
 def _read(
@@ -291,8 +311,12 @@ def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
 
 
 def drawn_chart(chart: Chart) -> Rgb:
-    """The picture of a chart: each knot one pixel in the colour of its yarn."""
-    colours: Rgb = chart.colour_table[chart.knots]
+    """The picture of a chart: each knot one pixel in its yarn's colour, other cells in that of the nearest knot."""
+    knots = chart.knots
+    if chart.cells is not None:
+        row, column = ndimage.distance_transform_edt(~chart.cells.tied, return_distances=False, return_indices=True)
+        knots = knots[row, column]
+    colours: Rgb = chart.colour_table[knots]
     return colours
 
 
