@@ -20,8 +20,8 @@ CHART = Chart(np.zeros((75, 50), np.uint8), default_yarns()[:2], "20x30cm", "25x
 
 
 def bare(text: str) -> str:
-    """Without blanks and what a shaping leaves out."""
-    return re.sub(r"[\s\u200c\u202f\ufffe\u00a0]", "", text)
+    """Without blanks, brackets, which a right to left line mirrors, and what a shaping leaves out."""
+    return re.sub(r"[\s\u200c\u202f\ufffe\u00a0()]", "", text)
 
 
 def papers(language: str, folder: Path) -> list[str]:
@@ -40,16 +40,18 @@ def papers(language: str, folder: Path) -> list[str]:
 def test_no_english_and_no_latin_digit_is_left(language: str, tmp_path: Path) -> None:
     for text in papers(language, tmp_path):
         assert not re.findall(r"[A-Za-z]{2,}", text)
-        assert not re.findall(r".*[0-9].*", text)
+        assert not re.findall(r"[0-9]", text.replace("#1", ""))  # the code of an order is read on its label too
 
 
 @pytest.mark.parametrize("language", FOREIGN)
 def test_each_text_is_read_back_in_logical_order(language: str, tmp_path: Path) -> None:
     shown, wages = (bare(text) for text in papers(language, tmp_path))
     catalogue, digits = catalogue_of(language), str.maketrans("0123456789", WEAVERS[language].digits)
-    for key in ("mounting", "warp-beam", "cloth-beam", "begin-row", "size", "knot"):
+    for key in ("mounting", "warp-beam", "cloth-beam", "size", "knot"):
         assert bare(catalogue[f"order.{key}"].translate(digits)) in shown, key
     for key in ("wages", "rate", "supplement", "wage", "advance", "due", "payments", "earned", "deducted", "paid"):
         assert bare(catalogue[f"order.{key}"]) in wages, key
     done = catalogue["order.woven-text"].format(done=30, rows=75).translate(digits)
-    assert all(bare(word) in wages for word in done.split())  # pdfium moves a number at the begin of a line
+    begin = catalogue["order.begin-row"].translate(digits)
+    for text, page in ((done, wages), (begin, shown)):  # pdfium moves a number at the begin of a line
+        assert all(bare(word) in page for word in text.replace(":", " ").split()), text

@@ -24,6 +24,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.rows import DIRECTIONS
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.usual_pile import with_counts
+from ilmek.carpet.yarn_plan import OVERCAST, TAPE, YarnPlanParams
 from ilmek.cli.call_screen import print_rows, screen_lines, spoken_step
 from ilmek.io.chart import bidi, lettering
 from ilmek.io.chart.legend import mounting_lines
@@ -70,12 +71,14 @@ CHARTS = [
 ]
 outside = np.hypot(*(np.indices((24, 24)) - 11.5)) > 12
 CHARTS.insert(1, chart_of(24, 24, cells=CellMap(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
+CHARTS.insert(2, chart_of(22, 22, cells=CellMap(outside[1:-1, 1:-1].astype(int), (PILE, CUT_AWAY))))  # bound with tape
 
 
 def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Path]:
     """Every printed paper of charts in a language."""
     for number, chart in enumerate(charts):
-        printing = Printing("", yarn_bill(chart), mounting(chart), language)
+        plan = YarnPlanParams(binding=TAPE if chart.rows == 22 else OVERCAST)
+        printing = Printing("", yarn_bill(chart, plan), mounting(chart), language)
         file = folder / f"{number}.pdf"
         writers: list[Callable[[], None]] = [
             lambda: write_chart_pdf(file, chart, printing=printing),  # noqa: B023 - called at once
@@ -123,7 +126,7 @@ def test_the_papers_say_what_the_catalogues_have(
     with in_language("fa"):
         for split in ("runs", "colours"):
             header(CHARTS[1], split, "both")
-        for chart in CHARTS[1:3]:
+        for chart in CHARTS[1:4]:
             assert len(list(call_of(chart))) > 20
             print_rows(Calling(chart, "colours", "left"))
     capsys.readouterr()

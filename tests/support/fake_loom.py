@@ -17,6 +17,7 @@ from ilmek.loom.control.ports import (
     PortReport,
     Sensors,
     SensorsChanged,
+    StandAside,
     Tie,
 )
 from ilmek.loom.operations import LoomProgramme, RowEnd
@@ -44,9 +45,9 @@ class FakeLoom:
         self.knows = True
 
     def send(self, orders: Sequence[Order]) -> None:
-        heads = [one.head for one in (*self.moving, *orders) if isinstance(one, Tie)]
+        heads = [one.head for one in (*self.moving, *orders) if isinstance(one, Tie | StandAside)]
         assert len(heads) == len(set(heads)), "a head was not idle"
-        if any(not isinstance(one, Tie) for one in orders):
+        if any(not isinstance(one, Tie | StandAside) for one in orders):
             assert not self.moving
             assert len(orders) == 1
         self.moving += orders
@@ -59,7 +60,7 @@ class FakeLoom:
         fault = self.fails(order)
         if fault is not None:
             return (Failed(order, fault, self.time),)
-        if not isinstance(order, Home):
+        if not isinstance(order, Home | StandAside):
             self.woven.append(order)
         reports: list[PortReport] = []
         if isinstance(order, EndRow) and order.operation in AWAY:

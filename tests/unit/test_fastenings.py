@@ -17,7 +17,10 @@ from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, weld_check
+from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR
 from ilmek.part.bolting import bolted
+from ilmek.part.catalogue import REAR_THREADS
+from ilmek.part.contacts import joined_by
 from ilmek.part.fastenings import Means, fastenings
 from ilmek.part.insertion import insertions
 from ilmek.part.meetings import meetings
@@ -32,6 +35,7 @@ from ilmek.units import mm
 
 ROOT = Path(__file__).parents[2]
 PIN, WIDE = 6 * mm, 10 * mm
+GEARED = {"reducer", "motor adapter"}
 
 
 def made(name: str, shape: Shape, z: float = 0.0, *, turning: bool = False) -> Occurrence:
@@ -168,8 +172,38 @@ def test_a_machine_alone_has_a_fastening_and_a_way_in_for_each_part(name: str, s
     assert machine.tree is not None
     design = machine.designed(machine.params.read(settings)) if settings else default_design(name)
     tree = machine.tree(design)
-    for check in (fastening_check(bolted(tree)), assembly_check(insertions(tree, UP))):
+    screwed = bolted(tree)
+    for check in (fastening_check(screwed), assembly_check(insertions(tree, UP))):
         assert check.ok, (check.name, check.source)
+    assert not drives_without_screws(screwed)
+
+
+def drives_without_screws(screwed: Tree) -> set[str]:
+    """Motors, reducers and adapters with neither screws in the holes of their catalogue nor a fixing of their own."""
+    parts = {part.id: part for part, _ in screwed.occurrences()}
+    screws = frozenset(name for name, part in parts.items() if part.process == "fastener")
+    joined = set[str]().union(*joined_by(screwed, screws).values())
+    drives = {
+        name for name, part in parts.items() if part.purchase and (part.purchase.drives or part.process in GEARED)
+    }
+    return {name for name in drives - joined if not parts[name].fixing}
+
+
+def test_a_motor_on_its_rear_cover_is_ordered_with_threads_there_and_without_them_nothing_holds_it() -> None:
+    tree = MACHINES["weaver"].tree(default_design("weaver"))
+    assert not drives_without_screws(bolted(tree))
+
+    def plain(occurrence: Occurrence) -> Occurrence:
+        part = occurrence.part
+        if part.id != COLOUR_MOTOR:
+            return occurrence
+        assert part.purchase is not None
+        assert REAR_THREADS in part.purchase.data
+        holes = tuple(replace(own, faces=(1,)) for own in part.purchase.holes)
+        return replace(occurrence, part=replace(part, purchase=replace(part.purchase, holes=holes)))
+
+    bodies = (replace(body, occurrences=tuple(map(plain, body.occurrences))) for body in tree.bodies)
+    assert drives_without_screws(bolted(Tree(tuple(bodies)))) == {COLOUR_MOTOR}
 
 
 OWN = sorted((ROOT / "examples").glob("*.toml")) + sorted((ROOT / "tests/reference/own_mechanisms").glob("*.toml"))

@@ -13,13 +13,14 @@ from hypothesis import strategies as st
 from manifold3d import Manifold, Mesh
 from matplotlib.path import Path as Outline
 
+from ilmek.elements.involute import Gear
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as LOOM
 from ilmek.machines.automated_loom.in_space.scene import loom_tree, scene
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.component import Component
 from ilmek.machines.weaver import MACHINE as HEAD
-from ilmek.machines.weaver import Weaver, WeaverParams, head_mass
+from ilmek.machines.weaver import Weaver, WeaverParams, head_mass, turning
 from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.lever_parts import lever_id
 from ilmek.machines.weaver.motions import HANDLER, SLEY
@@ -226,6 +227,28 @@ def _outline(part: Part) -> Outline:
     plate, _ = prism_of(part.shape, 0)
     corners = plate.section.outline.points
     return Outline(np.stack([corners.real, corners.imag], axis=1))
+
+
+def test_the_pinion_has_a_rim_no_undercut_and_rolls_on_its_rack_with_play() -> None:
+    """By points in polygons over a pitch: its play is that of the rack, to a fifth."""
+    parts = {part.id: part for part, _ in head_tree(_head()).occurrences()}
+    pinion, rack, rolls = parts[turning.PINION], parts[turning.RACK], _head().params.pinion
+    gear = Gear(2 * rolls / turning.TEETH, turning.TEETH, turning.SHIFT)
+    assert not gear.undercut
+    assert gear.root_radius - turning.CLUTCH[0] / 2 > 1.2 * gear.module
+    assert turning.CLUTCH[0] / 2 == pytest.approx(min(abs(prism_of(pinion.shape, 0)[0].section.holes[0].points)))
+    wheel, teeth = (_outline(part).vertices @ [1, 1j] for part in (pinion, rack))
+    line, pitch = rolls + turning.SHIFT * gear.module, 2 * np.pi * rolls / turning.TEETH
+    bar = Outline(np.stack([line - teeth.real, 4 * pitch - teeth.imag], axis=1))  # a tooth's middle at half a pitch
+    assert -teeth.real.min() + turning.SHIFT * gear.module == pytest.approx(turning.BACK)
+    half = turning.BACKLASH / 2
+    for rolled in np.linspace(0.0, pitch, 25):
+        within = [
+            bar.contains_points(np.stack([turned.real, turned.imag + aside], axis=1)).any()
+            for aside in (-1.2 * half, -0.8 * half, 0.0, 0.8 * half, 1.2 * half)
+            for turned in [wheel * np.exp(1j * rolled / rolls) + 1j * -rolled]
+        ]
+        assert within == [True, False, False, False, True], rolled
 
 
 def test_a_shuttle_is_hollow_by_its_bobbin_and_full_with_it() -> None:

@@ -40,6 +40,17 @@ def test_the_yarn_to_buy_stands_beside_the_symbols(tmp_path: Path) -> None:
         assert "88, of which 8 at the edges without knots; two for a knot" in lines  # 2 x 40 and 8
 
 
+@pytest.mark.parametrize("lang", ["en", "tr"])
+def test_the_sign_of_cells_without_a_knot_is_explained(tmp_path: Path, lang: str) -> None:
+    words = {"en": "12·: 12 cells without a knot, in plain weave.", "tr": "12·: ilmeksiz 12 göz, bez ayağı dokuma."}
+    for shape, shown in (("round", True), (None, False)):
+        order = read_order(CASE, size="40x40cm", quality="10x10/dm", shape=shape, lang=lang)
+        chart_order(order, tmp_path / str(shape))
+        for file in ("chart.pdf", "rows.pdf"):
+            text = " ".join(page.extract_text() for page in PdfReader(tmp_path / str(shape) / file).pages)
+            assert (words[lang] in text) is shown
+
+
 @pytest.mark.parametrize(("rows", "columns"), [(40, 30), (41, 31), (7, 1200)])
 def test_the_mounting_is_that_of_counted_warps(rows: int, columns: int) -> None:
     """Warps laid one by one, rows beaten one by one, on the loom: they come nearer in washing, and off it."""

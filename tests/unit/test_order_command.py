@@ -26,8 +26,9 @@ from ilmek.carpet.price_rules import WageRules
 from ilmek.carpet.strike_off import part_of, strike_off_window
 from ilmek.cli import main
 from ilmek.errors import CarpetError, LoomError
-from ilmek.io.call_state import CallState, state_file, write_state
+from ilmek.io.call_state import CallState, chart_digest, state_file, write_state
 from ilmek.io.carpet_record import read_record, record_faults
+from ilmek.io.chart.png import read_chart_png
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.ordering.progress import woven_rows
 from ilmek.viz.room import HIGH, WIDE, draw_room
@@ -172,6 +173,26 @@ def test_every_changed_byte_of_a_record_is_found(worked: tuple[dict[str, Any], P
         assert run("verify", copy).exit_code in {2, 3}, place
     copy.write_bytes(data)
     assert run("verify", copy).exit_code == 0
+
+
+def test_a_changed_record_is_not_to_be_mended(worked: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
+    text = (worked[1] / "medallion-madder" / "record-1.json").read_text()
+    (tmp_path / "record.json").write_text(text.replace('"knots": 1200', '"knots": 1201'))
+    done = run("verify", tmp_path / "record.json")
+    assert done.exit_code == 3
+    assert "/design/knots was changed: it is now 1201" in done.output
+    assert "do not trust this copy" in done.output
+    assert "its limit" not in done.output
+
+
+def test_colourways_of_the_same_knots_are_called_and_recorded_apart(worked: tuple[dict[str, Any], Path]) -> None:
+    """A call of the one pays no wage of the other; what is called is the chart of the folder."""
+    folder = worked[1] / "medallion-madder"
+    one = read_chart_png(folder / "chart.png")
+    other = replace(one, yarns=(*one.yarns[1:], one.yarns[0]))
+    assert json.loads((folder / "record-1.json").read_text())["record"]["design"]["digest"] == chart_digest(one)
+    assert chart_digest(one) != chart_digest(other)
+    assert state_file(one) != state_file(other)
 
 
 def test_what_was_changed_is_named(worked: tuple[dict[str, Any], Path]) -> None:

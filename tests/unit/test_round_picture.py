@@ -68,6 +68,39 @@ def test_the_knots_outside_are_a_failed_check(tmp_path: Path, options: tuple[str
     assert failed == ({"knots outside of the round picture": pytest.approx(CORNERS, abs=0.01)} if code else {})
 
 
+@pytest.mark.parametrize("shape", ["round", "oval", "picture"])
+@pytest.mark.parametrize("colours", ["2", "auto"])
+def test_a_round_carpet_needs_no_yarn_for_what_is_cut_away(tmp_path: Path, shape: str, colours: str) -> None:
+    """The list has no white, which the picture's ground would be: no colour is lost, none takes a yarn's place."""
+    picture = ROUND["a circle"].copy()
+    ImageDraw.Draw(picture).ellipse((100, 100, 200, 200), fill=(31, 47, 81, 255))
+    picture.save(tmp_path / "round.png")
+    yarns = [("red", "#9e2b25"), ("navy", "#1f2f51"), ("sand", "#d8b98c")]
+    (tmp_path / "yarns.toml").write_text(
+        "".join(f'[[yarn]]\nname = "{name}"\nsrgb = "{code}"\n' for name, code in yarns)
+    )
+    options = [
+        "--size",
+        "60x60cm",
+        "--quality",
+        "10x10/dm",
+        "--yarns",
+        str(tmp_path / "yarns.toml"),
+        "--colours",
+        colours,
+    ]
+    with pytest.raises(SystemExit) as end:
+        main(["chart", str(tmp_path / "round.png"), *options, "--shape", shape, "--out", str(tmp_path / "out")])
+    assert not end.value.code
+    data = json.loads((tmp_path / "out" / "chart.json").read_text())
+    assert all(check["ok"] for check in data["checks"])
+    knots = {line["name"]: line["knots"] for line in data["results"]["yarn"] if line["use"] == "pile"}
+    assert knots == {
+        "red": pytest.approx(math.pi * (30**2 - 10**2), rel=0.02),
+        "navy": pytest.approx(math.pi * 10**2, rel=0.05),
+    }
+
+
 @pytest.mark.parametrize("mode", ["RGBA", "LA", "P"])
 def test_a_picture_of_nothing_is_an_error(tmp_path: Path, mode: str, capsys: pytest.CaptureFixture[str]) -> None:
     Image.new("RGBA", (60, 40)).convert(mode).save(

@@ -1,6 +1,7 @@
 """Shapes of carpets against closed forms, brute counts of their files, and by hand; what is refused."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from ilmek.carpet.bill import pile_length, yarn_bill
+from ilmek.carpet.bill import YarnBill, pile_length, yarn_bill
 from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN, CellKind, CellMap, all_knots
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
@@ -19,6 +20,7 @@ from ilmek.carpet.quality import carpet_quality
 from ilmek.carpet.shape import SHAPES, ShapeParams, area_of, shaped
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.usual_pile import with_counts
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.cli import main
 from ilmek.errors import CarpetError, ParameterError
 from ilmek.io.chart.oxs import write_chart_oxs
@@ -203,3 +205,119 @@ def test_a_head_that_cannot_cut_two_heights_fails_a_check(tmp_path: Path) -> Non
     two = shaped(chart, ShapeParams(pile=f"{first}=6mm, {second}=loop"))
     assert [(check.ok, check.value) for check in pile_checks(two)] == [(False, 2), (False, two.counts[1])]
     assert pile_checks(shaped(chart, ShapeParams(shape="round"))) == ()
+
+
+def charted(*arguments: str) -> Chart:
+    made = CliRunner().invoke(main, ["chart", *arguments])
+    assert made.exit_code == 0, made.output
+    return read_chart_png(Path(arguments[arguments.index("--out") + 1]) / "chart.png")
+
+
+def test_a_chart_with_cells_on_another_grid_keeps_its_shape_and_buys_no_ground(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    first = charted(str(tmp_path / "disc.png"), "--size", "40x40cm", "--shape", "picture", "--out", str(tmp_path / "a"))
+    chart = str(tmp_path / "a" / "chart.png")
+    half = charted(chart, "--size", "44x44cm", "--quality", "12x12/dm", "--out", str(tmp_path / "b"))
+    assert half.knots.shape == (53, 53)
+    tied = half.knots != NO_KNOT
+    assert half.cells is not None
+    assert {kind.name for kind in half.cells.kinds} == {"knot", OUTSIDE}
+    y, x = np.mgrid[0:53, 0:53] + 0.5
+    far, edge = np.hypot(x - 26.5, y - 26.5), 0.95 * 26.5
+    assert tied[far < edge - 0.8].all()
+    assert not tied[far > edge + 0.8].any()
+    assert half.colours == first.colours == 2
+    assert finished_area(half) == pytest.approx(math.pi * (0.95 * 0.22) ** 2, rel=0.02)
+    (tmp_path / "two.csv").write_text("name,srgb\nClay,#a03020\nNight,#182858\n", encoding="utf-8")
+    other = charted(chart, "--yarns", str(tmp_path / "two.csv"), "--out", str(tmp_path / "c"))
+    assert np.array_equal(other.knots == NO_KNOT, first.knots == NO_KNOT)
+    assert sorted(yarn.name for yarn in map(other.yarns.__getitem__, other.used)) == ["Clay", "Night"]
+
+
+def test_the_plain_rows_of_a_chart_follow_its_grid_and_what_is_shown_of_it(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    area = ["--flat-weave", "41-60", "--out", str(tmp_path / "a")]
+    charted(str(tmp_path / "disc.png"), "--size", "40x40cm", *area)
+    size = ["--size", "40x20cm", "--quality", "20x20/dm", "--fit", "crop", "--out", str(tmp_path / "b")]
+    part = charted(str(tmp_path / "a" / "chart.png"), *size)
+    assert part.cells is not None
+    plain = np.flatnonzero(part.cells.are(PLAIN).all(axis=1))
+    assert part.rows == 40
+    assert len(plain) == 16  # 8 cm of 20 cm
+    assert np.array_equal(plain, np.arange(plain[0], plain[0] + 16))
+
+
+@pytest.mark.parametrize("fit", [("--turn", "90deg"), ("--crop", "10%,10% 90%,90%"), ("--fit", "pad")])
+def test_a_chart_with_cells_that_is_turned_or_cropped_is_refused(tmp_path: Path, fit: tuple[str, str]) -> None:
+    design(tmp_path / "disc.png")
+    charted(str(tmp_path / "disc.png"), "--size", "40x40cm", "--shape", "round", "--out", str(tmp_path / "a"))
+    order = ["chart", str(tmp_path / "a" / "chart.png"), "--size", "40x60cm", *fit, "--out", str(tmp_path / "b")]
+    refused = CliRunner().invoke(main, order)
+    assert refused.exit_code == 2
+    told = " ".join(refused.output.split())
+    assert "chart with cells of its own (knot, outside), turned, cropped or with a border" in told
+
+
+def test_an_outline_of_an_svg_file_is_the_shape_that_it_draws(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    drawn = '<ellipse cx="50" cy="50" rx="40" ry="30" fill="#000"/><circle cx="50" cy="50" r="10" fill="#fff"/>'
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" width="100" height="100">{drawn}</svg>'
+    (tmp_path / "outline.svg").write_text(svg, encoding="utf-8")
+    order = [str(tmp_path / "disc.png"), "--size", "40x40cm", "--ground", "#ffffff"]
+    made = charted(*order, "--shape", str(tmp_path / "outline.svg"), "--out", str(tmp_path / "a"))
+    y, x = np.mgrid[0:100, 0:100] + 0.5
+    level = np.hypot((x - 50) / 40, (y - 50) / 30)
+    tied = made.knots != NO_KNOT
+    assert tied[level < 0.97].all()  # what is drawn is the carpet, in any colour
+    assert not tied[level > 1.03].any()
+    assert int(tied.sum()) == pytest.approx(math.pi * 40 * 30, rel=0.01)
+    (tmp_path / "outline.svg").write_text("no drawing", encoding="utf-8")
+    refused = CliRunner().invoke(main, ["chart", *order, "--shape", str(tmp_path / "outline.svg")])
+    assert (refused.exit_code, "Traceback" in refused.output) == (2, False)
+    assert "outline.svg" in refused.output
+
+
+def bound(binding: str, **plan: object) -> YarnBill:
+    return yarn_bill(shaped(carpet(1.6, 1.6), ShapeParams(shape="round")), YarnPlanParams(binding=binding, **plan))
+
+
+def test_a_tape_has_its_length_mass_and_price_and_no_binding_has_none() -> None:
+    edge = math.pi * 1.6
+    tape = next(line for line in bound("tape").ground if line.use == "tape")
+    assert tape.length == pytest.approx(edge, rel=5e-3)
+    assert tape.mass == pytest.approx(edge * 2 * 8e-3 * 0.35, rel=5e-3)  # both faces of 8 mm, 350 g/m²
+    assert tape.price == pytest.approx(edge * 1.1, rel=5e-3)  # 1 EUR a metre, and the reserve
+    assert (tape.kept, tape.hanks) == (tape.mass, 0)
+    wide = next(line for line in bound("tape", binding_width=16e-3, tape_price=2.0).ground if line.use == "tape")
+    assert (wide.mass, wide.price) == (pytest.approx(2 * tape.mass), pytest.approx(2 * tape.price))
+    lira = next(line for line in bound("tape", currency="TRY").ground if line.use == "tape")
+    assert lira.price is None
+    none, overcast = bound("none"), bound("overcast")
+    assert {line.use for line in none.ground} & {"tape", "binding", "selvedge"} == set()
+    assert none.edge == overcast.edge == bound("tape").edge > 0
+    assert bound("tape").mass - none.mass == pytest.approx(tape.mass)
+    sewn = next(line for line in overcast.ground if line.use == "binding")
+    assert overcast.mass - none.mass == pytest.approx(sewn.mass)
+    assert yarn_bill(carpet(1.0, 1.0), YarnPlanParams(binding="tape")).edge == 0  # a rectangle has its selvedges
+
+
+def test_the_binding_is_of_the_yarn_that_is_named() -> None:
+    first, second = carpet(1.6, 1.6).yarns
+    assert first.metric_count is not None
+    thin, thick = replace(first, name="Thin"), replace(second, name="Thick", metric_count=first.metric_count / 2)
+    chart = shaped(replace(carpet(1.6, 1.6), yarns=(thin, thick)), ShapeParams(shape="round"))
+    lines = {
+        name: next(line for line in yarn_bill(chart, YarnPlanParams(binding_yarn=name)).ground if line.use == "binding")
+        for name in ("Thin", "thick")
+    }
+    assert lines["thick"].mass > 1.3 * lines["Thin"].mass  # twice the mass a metre, in fewer turns
+    with pytest.raises(CarpetError, match="did you mean 'Thick'"):
+        yarn_bill(chart, YarnPlanParams(binding_yarn="Thik"))
+
+
+def test_the_tape_is_on_the_yarn_list_of_the_order(tmp_path: Path) -> None:
+    design(tmp_path / "disc.png")
+    order = ["chart", str(tmp_path / "disc.png"), "--size", "40x40cm", "--shape", "picture", "--binding", "tape"]
+    made = CliRunner().invoke(main, [*order, "--out", str(tmp_path / "a")])
+    assert made.exit_code == 0, made.output
+    assert "tape of the edge" in (tmp_path / "a" / "yarn.csv").read_text(encoding="utf-8")

@@ -63,7 +63,7 @@ from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.part.welds import welds_of
 from ilmek.plane.contours import circle, rounded_hull
-from ilmek.report import Paper, Papers, Report, must
+from ilmek.report import Drawing, Paper, Papers, Report, must
 from ilmek.report.scene import SceneMotion
 from ilmek.report.sheet import Schematic
 from ilmek.sentences import in_language, translated
@@ -836,6 +836,11 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     assert [row[0] for row in rows] == list(range(1, len(rows) + 1))
     heads = [row for row in rows if row[1] == "head" and row[4] == "6 × as put together before"]
     assert len(heads) == 1
+    fixed = {part["title"]: part["fixing"] for part in listed("parts") if part["fixing"]}
+    assert len(fixed) > 10
+    told = {title: str(row[6]) for row in rows for title in re.findall(r"× ([^;,]+)", str(row[4]))}
+    assert all(fixed[title] in told[title] for title in fixed.keys() & told.keys())
+    assert fixed.keys() - told.keys() == set()
     titles = {
         named.split(" × ", 1)[1].split(", ")[0]
         for row in rows
@@ -869,6 +874,18 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     assert joins == {name for row in rows if row[7] for name in re.findall(r"× ([^,;]+)", str(row[6]))} - turned
 
 
+def test_the_foundation_plan_marks_its_datum_and_names_no_part_that_hangs_on_another() -> None:
+    (section,) = next(paper for paper in papers().pages if paper.name == "foundation").sections
+    assert section.table is not None
+    assert isinstance(section.figure, Drawing)
+    hung = {part["title"] for part in listed("parts") if part["fixing"]}
+    assert hung.isdisjoint(str(row[1]) for row in section.table.rows)
+    origin = [row for row in section.table.rows if row[2] == row[3] == 0]
+    (datum,) = (dot for dot in section.figure.dots if "datum" in dot.label)
+    assert datum.at == 0
+    assert [str(row[0]) for row in origin] == [datum.label.split(",")[0]]
+
+
 def of_pieces(steps: Iterable[Insertion]) -> Counter[tuple[str, tuple[float, ...]]]:
     """Each piece that comes, by its part and where it stands."""
     return Counter(
@@ -893,6 +910,7 @@ def test_each_piece_comes_once_and_what_is_built_is_of_the_pieces_that_come() ->
         step = rest.pop()
         assert not of_pieces(step.bench) or of_pieces(step.bench) == of_pieces([step])
         built += bool(step.bench)
+        assert not step.bench or not step.bench[0].units[0].fastens  # a washer comes onto its shaft
         rest += step.bench
     assert built > 25
     feet = [step for step in steps if step.units[0].pieces[0].part.title == "levelling foot"]
@@ -987,6 +1005,7 @@ def test_nouns_of_the_loom_are_turkish_in_turkish_papers() -> None:
     loom = default_design("automated-loom")
     tree = loom_tree(loom)
     nouns = {part.title for part, _ in tree.occurrences()} | {own for body in tree.bodies for own in body.id.split("/")}
+    nouns |= {part.fixing for part, _ in tree.occurrences() if part.fixing}
     for cyclogram in loom.cyclograms:
         nouns |= {track.name for track in cyclogram.tracks}
         nouns |= {segment.name.rstrip(" 0123456789") for track in cyclogram.tracks for segment in track.segments}

@@ -15,11 +15,11 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.cut_edge import cut_share, edge_length, finished_area
 from ilmek.carpet.dye_lots import rows_of_new_lots, whole
-from ilmek.carpet.ground import GroundParams, GroundYarn, binding_yarn, ground_yarns, selvedge_yarn
+from ilmek.carpet.ground import GroundParams, GroundYarn, binding_tape, binding_yarn, ground_yarns, selvedge_yarn
 from ilmek.carpet.pile import PileParams, knot_length, of_kind
 from ilmek.carpet.usual_pile import MassBand, published_band
 from ilmek.carpet.yarn import Yarn
-from ilmek.carpet.yarn_plan import OVERCAST, YarnPlanParams, parse_hank, write_count
+from ilmek.carpet.yarn_plan import OVERCAST, TAPE, YarnPlanParams, parse_hank, write_count
 from ilmek.elements.knot_kinds import FORMS
 from ilmek.errors import CarpetError, did_you_mean
 from ilmek.report.framed import RecordTable
@@ -130,6 +130,8 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
             most = _binding_yarn(chart, plan.binding_yarn, most)
             hem = (edge, plan.binding_width, chart.quality, most.linear_density, ground)
             threads = (*threads, binding_yarn(*hem))
+        elif plan.binding == TAPE:
+            threads = (*threads, binding_tape(edge, plan.binding_width))
     names = names_to_buy(chart)
     needs = tuple(
         replace(_pile_need(chart, index, plan, pile, ground.yarns.pile), bought=names[index]) for index in chart.used
@@ -179,7 +181,10 @@ def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, pile: PileParams,
 
 
 def _ground_need(thread: GroundYarn, most: Yarn, plan: YarnPlanParams) -> YarnNeed:
-    """The line of a ground yarn; selvedges and binding are of a pile yarn, `most`."""
+    """The line of a ground yarn; selvedges and binding are of a pile yarn, `most`; a tape is bought by its length."""
+    if thread.use == "tape":
+        rate = plan.price_of_tape
+        return replace(_need(thread, plan, None if rate is None else rate * thread.length / thread.mass), hanks=0)
     if thread.use in ("selvedge", "binding"):
         return _need(thread, plan, plan.price("pile", thread.material) if most.price is None else most.price, most)
     return _need(thread, plan, plan.price("warp" if thread.use == "warp" else "weft", thread.material))

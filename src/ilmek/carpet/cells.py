@@ -127,6 +127,22 @@ class CellMap:
         kinds = self.kinds if kind in self.kinds else (*self.kinds, kind)
         return CellMap(np.where(where, np.uint8(kinds.index(kind)), self.index), kinds)
 
+    def on_grid(
+        self, rows: int, columns: int, shown: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    ) -> "CellMap":
+        """The map on another grid: each cell is of the kind of the cell in which its middle is.
+
+        shown  left, top, right and bottom of the part that the grid covers, as shares of the map, 0 to 1
+
+        >>> CellMap([[1, 0]], (PILE, CUT_AWAY)).on_grid(1, 4).index.tolist()
+        [[1, 1, 0, 0]]
+        """
+        left, top, right, bottom = shown
+        height, width = self.index.shape
+        row = (height * (top + (bottom - top) * (np.arange(rows) + 0.5) / rows)).astype(int)
+        column = (width * (left + (right - left) * (np.arange(columns) + 0.5) / columns)).astype(int)
+        return replace(self, index=self.index[np.ix_(row.clip(0, height - 1), column.clip(0, width - 1))])
+
     def merged(self) -> "CellMap | None":
         """The map with the kinds that a cell has, in their order; None where all cells are knots of the usual pile."""
         used = [kind for kind, count in zip(self.kinds, self.counts, strict=True) if count]

@@ -3,7 +3,8 @@
     mass = Σ yarn · factor + energy · factor        [kg CO2e]
 
 The factors are those of studies whose limits differ; of wool they reach from 2 to 30 kg/kg by the share that is given
-to the sheep's meat. A producer who knows the figures of his own yarns sets them.
+to the sheep's meat; that of silk is an assumption, and its source says so. A producer who knows the figures of his own
+yarns sets them.
 """
 
 from collections.abc import Mapping
@@ -25,7 +26,12 @@ FACTORS: Mapping[str, EmissionFactor] = MappingProxyType(
     {
         "wool": EmissionFactor(5.48, "kg", "wool in carpets made in Europe, as cited by Wikipedia, Carbon footprint"),
         "cotton": EmissionFactor(5.9, "kg", "spun cotton, USA: Cherrett et al., Stockholm Environment Institute, 2005"),
-        "silk": EmissionFactor(25.4, "kg", "raw silk, India: Astudillo et al., J. Cleaner Production 81, 2014"),
+        "silk": EmissionFactor(
+            25.4,
+            "kg",
+            "assumption, confirmed by no open source; for raw silk compare Astudillo et al., Life cycle assessment "
+            "of Indian silk, J. Cleaner Production, 2014",
+        ),
         "electricity": EmissionFactor(
             0.481, "kWh", "mean of the world in 2023: Ember, Global Electricity Review, 2024"
         ),

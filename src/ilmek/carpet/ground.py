@@ -85,6 +85,10 @@ class GroundParams(Params):
         return length * self.washing.lengthening() * (1 + self.crimp) + 2 * self.fringe + self.loom_waste
 
 
+TAPE_MATERIAL, TAPE_MASS = "cotton", 0.35
+"""Of a woven tape, and its mass over its area [kg/m²]: a twill tape some 0.7 mm thick; assumed by this project."""
+
+
 @dataclass(frozen=True, slots=True)
 class GroundYarn:
     """Need of a ground yarn: name, use, material, length [m], mass [kg].
@@ -210,6 +214,14 @@ def binding_yarn(
     around = 2 * (width + yarns.warp.diameter + yarns.sinuous_weft.diameter) + math.pi * pile
     total = length / pile * math.hypot(around, pile)
     return GroundYarn(Sentence("ground.binding"), "binding", params.yarns.pile, total, total * linear_density)
+
+
+def binding_tape(length: float, width: float) -> GroundYarn:
+    """Tape of cotton that is sewn over a cut edge: on both faces of the hem.
+
+    length  of the edge [m]      width  of the hem [m]
+    """
+    return GroundYarn(Sentence("ground.tape"), "tape", TAPE_MATERIAL, length, length * 2 * width * TAPE_MASS)
 
 
 def _weft(name: str, use: str, yarn: YarnProperties, length: float) -> GroundYarn:

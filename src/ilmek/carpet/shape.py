@@ -96,6 +96,11 @@ class ShapeParams(Params):
         """Whether the shape has an equation."""
         return self.shape in SHAPES
 
+    def cuts(self, outside: float) -> bool:
+        """Whether the shape is that of a picture's opaque part; outside: share of it around a round part [-]."""
+        fits = self.shape in {"round", "oval"} or self.file is not None
+        return self.shape == PICTURE or (fits and outside > 0)
+
     @property
     def file(self) -> str | None:
         """The file of the outline, if it has one."""

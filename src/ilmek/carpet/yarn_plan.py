@@ -15,8 +15,11 @@ from ilmek.units import format_number, mm, parse_quantity
 
 EURO = "EUR"
 
-OVERCAST = "overcast"
-"""The binding with pile yarn, turn beside turn."""
+OVERCAST, TAPE = "overcast", "tape"
+"""The binding with pile yarn, turn beside turn; with a woven tape of cotton, sewn over the hem."""
+
+TAPE_PRICE = 1.0
+"""Price of a metre of tape [EUR]; a round number assumed by this project."""
 
 PRICES = {"cotton": 8.0, "wool": 20.0, "silk": 120.0}
 """Prices of a kilogram of yarn by material [EUR]; round numbers assumed by this project."""
@@ -60,7 +63,7 @@ class YarnPlanParams(Params):
     )
     binding: str = kind.choice(
         OVERCAST,
-        (OVERCAST, "tape", "none"),
+        (OVERCAST, TAPE, "none"),
         doc="binding of the edge of a carpet with a shape: pile yarn, or a tape",
     )
     binding_width: float = kind.length(
@@ -80,6 +83,9 @@ class YarnPlanParams(Params):
     )
     weft_price: float | None = kind.ratio(
         None, at_least=0.0, at_most=1e6, doc="price per kg of wefts and ends; default: 8 EUR for cotton, 20 for wool"
+    )
+    tape_price: float | None = kind.ratio(
+        None, at_least=0.0, at_most=1e6, doc="price per metre of a tape that binds the edge; default: 1 EUR"
     )
 
     def check_together(self) -> None:
@@ -122,6 +128,11 @@ class YarnPlanParams(Params):
         """Price per kg of a use (pile, warp, weft) where no list gives one; None: not known in this currency."""
         given = {"pile": self.pile_price, "warp": self.warp_price, "weft": self.weft_price}[use]
         return PRICES[material] if given is None and self.currency == EURO else given
+
+    @property
+    def price_of_tape(self) -> float | None:
+        """Price per metre of tape; None: not known in this currency."""
+        return TAPE_PRICE if self.tape_price is None and self.currency == EURO else self.tape_price
 
 
 def parse_count(text: str) -> tuple[float, int]:

@@ -1,4 +1,4 @@
-"""Reducers: torque, efficiency, self-locking; stock ratios of planetary gears; classes of flanges, sizes of worm gears.
+"""Reducers: torque, efficiency, self-locking; stock ratios of planetary gears.
 
 A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses in back-driving,
 eta_back = 2 - 1/eta, so a self-locking reducer (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or efficient,
@@ -121,103 +121,6 @@ def reducer_check(title: str, by: Reducer, motor_torque: float, load: float, par
     row = flange_for(max(by.output_torque(motor_torque), load))
     source = f"class with a flange of {format_quantity(row.face, 'mm')}; the largest is of 14 kNm"
     return at_most(f"torque of the {title}", load, row.torque, "Nm", source).with_cure(
-        "set a lower tension, or a narrower loom", part
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class WormSize:
-    """A size of worm reducers: its hollow shaft lies across the motor's, apart by the centre distance; in m and kg.
-
-    centre  distance of both axes             torque, single  slow, of a last stage of 50:1, of 100:1 [N m]
-    bore    largest of its hollow shaft       length   of that, beyond both covers
-    motor   from its axis to the motor's      half     from its axis to the housing's sides along the worm and away
-    top     beyond the worm                   cover    from the middle of its length to a cover
-    pilot   diameter of the covers' pilots    circle   of the screws in a cover, of a thread
-    arm     from its axis to the eye of its torque arm, of a screw      mass
-    """
-
-    centre: float
-    torque: float
-    single: float
-    bore: float
-    length: float
-    motor: float
-    half: float
-    top: float
-    cover: float
-    pilot: float
-    circle: float
-    thread: str
-    arm: float
-    screw: str
-    mass: float
-
-    @property
-    def name(self) -> str:
-        """Its class, for people."""
-        return f"size {self.centre / mm:g}"
-
-    def holds(self, ratio: float) -> float:
-        """Torque at the output [N m]: a ratio above `SINGLE` has a stage before a last one of 50:1."""
-        return self.single if _LAST < ratio <= SINGLE else self.torque
-
-    def first(self, ratio: float) -> "WormSize | None":
-        """The size of the worm before it, above a ratio of `SINGLE`: makers join 63 to 130, 40 to 90."""
-        return None if ratio <= SINGLE else next(row for row in WORM_SIZES if row.centre >= _FIRST * self.centre)
-
-
-SINGLE, _LAST, _FIRST = 100.0, 50.0, 0.42
-"""Largest ratio of a worm, ratio of the last of two stages, and centre distance of the first over that of the last."""
-
-WORM_SIZES = tuple(
-    WormSize(
-        centre=centre * mm,
-        torque=torque,
-        single=single,
-        bore=bore * mm,
-        length=length * mm,
-        motor=motor * mm,
-        half=half * mm,
-        top=top * mm,
-        cover=cover * mm,
-        pilot=pilot * mm,
-        circle=circle * mm,
-        thread=thread,
-        arm=arm * mm,
-        screw=screw,
-        mass=mass,
-    )
-    for centre, torque, single, bore, length, motor, half, top, cover, pilot, circle, thread, arm, screw, mass in (
-        (63, 145, 100, 28, 112, 95, 72, 102, 53, 80, 95, "M8", 150, "M8", 6.2),
-        (75, 320, 230, 35, 120, 112.5, 86, 117, 57, 95, 115, "M8", 200, "M12", 9.0),
-        (90, 560, 410, 38, 140, 129.5, 103, 133, 67, 110, 130, "M10", 200, "M12", 13.0),
-        (110, 1000, 746, 42, 155, 160, 127.5, 167.5, 74, 130, 165, "M10", 250, "M16", 35.0),
-        (130, 1550, 1100, 45, 170, 180, 147.5, 187.5, 81, 180, 215, "M12", 250, "M16", 48.0),
-        (150, 2330, 1650, 50, 200, 210, 170, 230, 96, 180, 215, "M12", 250, "M16", 84.0),
-        (185, 4400, 3100, 60, 247, 260, 210, 284, 118, 222, 265, "M16", 370, "M16", 158.0),
-        (250, 10800, 7600, 110, 334, 350, 283, 384, 160, 300, 358, "M16", 445, "M16", 390.0),
-        (315, 21000, 15000, 130, 420, 441, 357, 483, 202, 378, 450, "M16", 520, "M16", 780.0),
-    )
-)
-"""Motovario's SW, sizes and masses by its catalogue; torques of its two-stage units at less than 1 rpm. Those above 150
-are assumed: sizes by the centre distance, torques and masses by its cube. The arms above 150 are assumed too."""
-
-
-def worm_for(torque: float, ratio: float, bore: float = 0.0) -> WormSize:
-    """The smallest size for a torque [N m] with a hollow shaft of at least a bore [m]; the largest where none is.
-
-    >>> worm_for(700.0, 100.0).name, worm_for(700.0, 150.0, 0.045).name
-    ('size 110', 'size 130')
-    """
-    enough = (row for row in WORM_SIZES if row.holds(ratio) >= torque and row.bore >= bore - 1e-9)
-    return next(enough, WORM_SIZES[-1])
-
-
-def worm_check(title: str, row: WormSize, ratio: float, load: float, part: str) -> Check:
-    """The torque of a load on a worm reducer [N m] against that of its size."""
-    source = f"{row.name}, slow; the largest is of {format_quantity(WORM_SIZES[-1].holds(ratio), 'Nm')}"
-    return at_most(f"torque of the {title}", load, row.holds(ratio), "Nm", source).with_cure(
         "set a lower tension, or a narrower loom", part
     )
 

@@ -42,8 +42,9 @@ class DamagedStateError(Exception):
 
 
 def chart_digest(chart: Chart) -> str:
-    """A name for the knots and the overlay of a chart."""
-    found = hashlib.sha256(repr((chart.rows, chart.columns)).encode())
+    """A name for the knots, their colours and the overlay of a chart: colourways of one design have their own."""
+    colours = [(index, *chart.yarns[index].srgb) for index in chart.used]
+    found = hashlib.sha256(repr((chart.rows, chart.columns, colours)).encode())
     found.update(np.ascontiguousarray(chart.knots).data)
     overlay = chart.overlay
     for array in (overlay.rows, overlay.columns, overlay.kinds, overlay.seconds):

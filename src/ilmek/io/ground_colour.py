@@ -38,11 +38,13 @@ class Ground(NamedTuple):
     """The colour behind transparent parts, and the share of the outline that is hidden on it [-].
 
     art  left, top, right and bottom of what is not transparent, whole percent of the sides, a percent of margin with it
+    rim  the most frequent colour beside the outline
     """
 
     colour: Colour
     hidden: float = 0.0
     art: tuple[int, int, int, int] = (0, 0, 100, 100)
+    rim: Colour = WHITE
 
     @property
     def crop(self) -> str | None:
@@ -69,7 +71,7 @@ def contrasting_ground(art: Image.Image) -> Ground:
     >>> art = Image.new("RGBA", (60, 60))
     >>> art.paste((250, 250, 250, 255), (10, 10, 50, 50))
     >>> contrasting_ground(art)
-    Ground(colour=(32, 32, 32), hidden=0.0, art=(15, 15, 85, 85))
+    Ground(colour=(32, 32, 32), hidden=0.0, art=(15, 15, 85, 85), rim=(250, 250, 250))
     """
     few = art.reduce(max(1, max(art.size) // _POINTS))
     codes = np.asarray(few, dtype=float)
@@ -78,7 +80,7 @@ def contrasting_ground(art: Image.Image) -> Ground:
     outline = inside & (_greatest_around(~inside) > 0)
     if not outline.any():
         return Ground(WHITE)
-    box = _art(cover)
+    box, rim = _art(cover), _rim(codes[(cover == cover.max()) & (_greatest_around(_greatest_around(~inside)) > 0)])
 
     def hidden(colour: Colour) -> float:
         mixed = cover[..., None] * codes[..., :3] + (1 - cover[..., None]) * colour
@@ -86,11 +88,20 @@ def contrasting_ground(art: Image.Image) -> Ground:
         contrast = delta_e_2000(labs, srgb_to_lab(np.array(colour, dtype=np.uint8)))
         return float(np.mean(_greatest_around(np.where(inside, contrast, 0.0))[outline] < SEEN * cover.max()))
 
-    white, *others = (Ground(colour, hidden(colour), box) for colour in (WHITE, DARK, GREY))
+    white, *others = (Ground(colour, hidden(colour), box, rim) for colour in (WHITE, DARK, GREY))
     if white.hidden <= MOST_HIDDEN:
         return white
     best = min(others, key=lambda ground: ground.hidden)
     return best if best.hidden < white.hidden / 2 else white
+
+
+def _rim(codes: FloatArray) -> Colour:
+    """The most frequent of the codes of red, green, blue and cover."""
+    if not len(codes):
+        return WHITE
+    colours, counts = np.unique(np.rint(codes[:, :3]).astype(int), axis=0, return_counts=True)
+    red, green, blue = colours[counts.argmax()].tolist()
+    return red, green, blue
 
 
 def _greatest_around(values: FloatArray) -> FloatArray:

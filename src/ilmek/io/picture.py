@@ -102,6 +102,7 @@ class Picture:
     ground   colour behind its transparent parts; None: it has none
     outside  share of it outside of its round outline, where no ground is given for that [-]
     hidden   share of its outline that is hidden on the ground, where none is given [-]
+    rim      the most frequent colour beside its outline; None: it has no transparent parts, or a ground is given
     indices  of an opaque indexed picture of at most MOST_INDEXED pixels, rows x columns; None: it is none
     """
 
@@ -111,6 +112,7 @@ class Picture:
     ground: Colour | None = None
     outside: float = 0.0
     hidden: float = 0.0
+    rim: Colour | None = None
     indices: Indices | None = None
 
     def __post_init__(self) -> None:
@@ -244,7 +246,8 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
         return Picture(upright, about, stated, indices=indices)
     if orientation == 1 and behind.crop:
         about += (f'most of the picture is a transparent margin: --crop "{behind.crop}" takes the art alone',)
-    return Picture(upright, about, stated, behind.colour, outside, behind.hidden, indices)
+    rim = behind.rim if ground is None else None
+    return Picture(upright, about, stated, behind.colour, outside, behind.hidden, rim, indices)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:

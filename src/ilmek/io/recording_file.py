@@ -11,6 +11,7 @@
 Times are nanoseconds. Inputs:
 
     tie HEAD ROW NUMBER COLUMN TUBE      end ROW OPERATION           jog AXIS NANOMETRES      home AXIS
+    aside HEAD ROW PHASE COLUMN
     change ROW PHASE WEFT... / HEAD TUBE YARN NANOMETRES ...         packages, as change
     door CLOSED    emergency PRESSED     tension LOW    repaired     speed PERMILLE    power    halt
     inject FAULT ROW COLUMN OPERATION    sensor NAME VALUE (- true false or a number)
@@ -27,7 +28,7 @@ from pathlib import Path
 from ilmek.errors import LoomError, restated, shortened
 from ilmek.io.text_file import read_text
 from ilmek.loom.control.interlocks import LoomAxis
-from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Home, Jog, Tie
+from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Home, Jog, StandAside, Tie
 from ilmek.loom.operations import RowEnd, Stop, TubeChange
 from ilmek.loom.twin.events import order_words, stop_words
 from ilmek.loom.twin.model import FaultRates
@@ -100,7 +101,7 @@ def read_recording(path: Path) -> Recording:
 
 def _words(one: PlantInput) -> str:
     match one:
-        case Tie() | EndRow() | ChangePackages() | Jog() | Home():
+        case Tie() | StandAside() | EndRow() | ChangePackages() | Jog() | Home():
             return order_words(one)
         case Door(value) | EmergencyStop(value) | Tension(value) | SetSpeed(value):
             return f"{_NAMES[type(one)]} {int(value)}"
@@ -135,6 +136,7 @@ def _input(words: list[str]) -> PlantInput:
 
 _PARSERS: dict[str, tuple[int | None, Callable[[list[str]], PlantInput]]] = {
     "tie": (5, lambda rest: Tie(*(_whole(word, 0) for word in rest))),
+    "aside": (4, lambda rest: StandAside(*(_whole(word, 0) for word in rest))),
     "end": (2, lambda rest: EndRow(_whole(rest[0], 0), _row_end(rest[1]))),
     "jog": (2, lambda rest: Jog(_name(rest[0]), _whole(rest[1]) / BILLION)),
     "home": (1, lambda rest: Home(_axis(rest[0]))),

@@ -5,7 +5,10 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from scipy import ndimage
+
 from ilmek.arrays import Indices, Rgb
+from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart, used_first
 from ilmek.carpet.chart_making import chart_of_design
 from ilmek.carpet.creel import in_creel_order
@@ -72,7 +75,7 @@ def chart_of_order(
     Raises PictureError, CarpetError or YarnError.
     """
     file = file_key(order.picture)
-    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, with_source)
+    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, order.shape.shape, with_source)
     chart, notes = stages.keep(
         "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
     )
@@ -116,7 +119,9 @@ def chart_of_order(
 
 
 def _of_indices(chart: Chart, read: "_ReadPicture", *, edited: bool) -> Chart:
-    """The chart in the order of an indexed drawing's creel, else by its knots, with why the indices are not kept."""
+    """The chart with its cells, in the order of an indexed drawing's creel, else by its knots, with why it is not."""
+    if read.cells is not None:
+        chart = replace(chart, cells=read.cells.on_grid(chart.rows, chart.columns, read.fit.shown).merged())
     if read.indices is None:
         return used_first(chart)
     obstacle = "edits name the yarns of the list" if edited else ""
@@ -147,7 +152,7 @@ def file_key(path: Path) -> tuple[Path, int, int]:
 @record
 class _ReadPicture:
     """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
-    shows; indices of an indexed picture before it was turned or cropped.
+    shows; indices of an indexed picture before it was turned or cropped; cells of a chart, on its own grid.
     """
 
     size: CarpetSize
@@ -158,6 +163,17 @@ class _ReadPicture:
     source: Rgb | None
     whole: Rgb | None = None
     indices: Indices | None = None
+    cells: CellMap | None = None
+
+
+def _require_upright(order: CarpetOrder, read: _ReadPicture) -> _ReadPicture:
+    """What was read. Raises PictureError for a chart with a map of cells that was turned, cropped by hand or padded."""
+    of_hand = replace(order.fit, fit=FitParams().fit, ground=None, width=None, length=None, page=1) != FitParams()
+    if read.cells is not None and (of_hand or read.fit.turned or read.fit.padded):
+        kinds = ", ".join(kind.name for kind in read.cells.kinds)
+        given = f"{order.picture.name}, a chart with cells of its own ({kinds}), turned, cropped or with a border"
+        raise PictureError(given, allowed="another size, quality or yarns", do="chart the design anew, with its shape")
+    return read
 
 
 def _read_file(
@@ -170,6 +186,10 @@ def _read_file(
     picture = stages.keep(
         "picture", of_picture, lambda: read_picture(order.picture, reading_file, ground=ground, rendering=rendering)
     )
+    if order.shape.cuts(picture.outside) and picture.rim is not None:  # of the picture's colours: no other takes a yarn
+        ground = hex_colour(picture.rim)
+        of_picture = (file, ground, of_picture[2])
+        picture = read_picture(order.picture, ground=ground, rendering=rendering)
     rgb, notes, behind, indices = picture.rgb, picture.notes, picture.ground, picture.indices
     outside, hidden = picture.outside, picture.hidden
     stated = _stated(order, picture)
@@ -200,7 +220,7 @@ def _read_file(
         seen=partial(stages.seen, of_picture),
         scale=scale,
     )
-    if ground is not None and behind is None and not read.fit.padded:
+    if order.fit.ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
     whole = shown_source(prepared) if with_source and stages.with_whole and read.fit.kind == "crop" else None
     if fitting.corners is None and fitting.crop is None:
@@ -225,7 +245,9 @@ def _read_chart(
     seen = partial(ANEW.seen, None)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source, seen=seen)
     whole = shown_source(prepared) if with_source and read.fit.kind == "crop" else None
-    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole)
+    return _require_upright(
+        order, replace(read, notes=(*_flattened(chart), *read.notes), whole=whole, cells=chart.cells)
+    )
 
 
 def _read(
@@ -287,17 +309,19 @@ def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
 
 
 def drawn_chart(chart: Chart) -> Rgb:
-    """The picture of a chart: each knot one pixel in the colour of its yarn."""
-    colours: Rgb = chart.colour_table[chart.knots]
+    """The picture of a chart: each knot one pixel in its yarn's colour, other cells in that of the nearest knot."""
+    knots = chart.knots
+    if chart.cells is not None:
+        row, column = ndimage.distance_transform_edt(~chart.cells.tied, return_distances=False, return_indices=True)
+        knots = knots[row, column]
+    colours: Rgb = chart.colour_table[knots]
     return colours
 
 
 def _flattened(chart: Chart) -> tuple[str, ...]:
     """A note on the marks of a chart that is read as a drawing."""
-    if not len(chart.overlay):
-        return ()
     halves, juftis = counted(chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
-    return (f"without its {halves} and {juftis}",)
+    return (f"without its {halves} and {juftis}",) if len(chart.overlay) else ()
 
 
 def _is_part(prepared: Rgb, chart: Chart) -> bool:

@@ -24,7 +24,7 @@ from ilmek.jobs.existing_loom import (
     row_pitch_left,
     yarns_on,
 )
-from ilmek.jobs.loom_setup import CarpetPile, knots_saved, loom_setup
+from ilmek.jobs.loom_setup import CarpetPile, knots_saved, knotted_share, loom_setup
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
@@ -135,6 +135,7 @@ OF_THE_CARPET = {
     "pile_height": "--pile-height",
     "yarns.pile_density": "--yarn-count",
     "changes_per_knot": "the picture",
+    "knotted_share": "--shape",
 }
 """Parameters of a loom that follow from the carpet, and the option that sets each."""
 
@@ -269,9 +270,9 @@ def _by_hand(machine: AnyComponent, params: Params, chart: Chart, *, illustrated
     loom: HandLoom = machine.designed(params)
     report = machine.report(loom, illustrated=illustrated, assembled=assembled)
     time, left = loom.rows * loom.row_time, float(loom.beat.row_pitch_left)
-    time -= knots_saved(chart, loom.weavers) * loom.params.hand_knot
-    note = NO_DRIVES if loom.drive is None else BEATS_ALONE
-    return LoomResult(report, (), hand=loom, row_pitch_left=left, weaving_time=time, notes=(note,))
+    time -= knots_saved(chart, loom.weavers, loom.params.knotted_share) * loom.params.hand_knot
+    notes = (NO_DRIVES if loom.drive is None else BEATS_ALONE,)
+    return LoomResult(report, (), hand=loom, row_pitch_left=left, weaving_time=time, notes=notes)
 
 
 def _for_weavers(
@@ -287,7 +288,8 @@ def _for_weavers(
     if assembled:
         made = MACHINE.with_room(made, params)
     report = with_nearest(reported(made), params, progress)
-    left, time = made.beat.row_pitch_left, estimated_time(made) - knots_saved(chart, made.weavers) * made.times.knot
+    left, time = made.beat.row_pitch_left, estimated_time(made)
+    time -= knots_saved(chart, made.weavers, made.params.knotted_share) * made.times.knot
     return LoomResult(report, (), made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
 
 
@@ -346,6 +348,7 @@ def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomPara
         knot_yarn=yarn_of_a_knot(charted),
         pile_height=max(of_kind(charted.pile, kind).pile_height for kind, _ in chart.tied_by_kind),
         changes_per_knot=min(1.0, chart.changes_per_knot),
+        knotted_share=knotted_share(chart),
     )
 
 
@@ -371,10 +374,9 @@ def deadline_checks(deadline: float | None, time: float) -> tuple[Check, ...]:
 def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
     """The parameters that follow from the carpet alone."""
     names = ("width", "length", "knots_across", "knots_along", "knot", "colours", "knot_yarn", "pile_height",
-             "changes_per_knot")  # fmt: skip
-    plain = AutomatedLoomParams()
-    yarns = replace(plain.yarns, pile_density=params.yarns.pile_density)
-    return replace(plain, yarns=yarns, **{name: getattr(params, name) for name in names})
+             "changes_per_knot", "knotted_share")  # fmt: skip
+    yarns = replace(AutomatedLoomParams().yarns, pile_density=params.yarns.pile_density)
+    return AutomatedLoomParams(yarns=yarns, **{name: getattr(params, name) for name in names})
 
 
 def _can_be_designed(params: AutomatedLoomParams) -> bool:

@@ -15,8 +15,8 @@ from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign
 from ilmek.machines.automated_loom.cyclogram import row_ends
 from ilmek.records import record
 
-WISHES = ("deadline", "price_limit")
-"""Parameters that limit what was chosen for the first carpet; they do not change the loom."""
+WISHES = ("deadline", "price_limit", "knotted_share")
+"""Parameters by which the loom was chosen for its first carpet; they do not change the loom."""
 
 
 def loom_digest(params: AutomatedLoomParams) -> str:
@@ -43,12 +43,17 @@ def _row_knots(chart: Chart) -> tuple[int, ...]:
     return tuple(np.count_nonzero(chart.knots[::-1] != NO_KNOT, axis=1).tolist())
 
 
-def knots_saved(chart: Chart, weavers: int) -> int:
-    """Knots in turn that a number of weavers has less than with one in every cell: a row is shared evenly."""
+def knotted_share(chart: Chart) -> float:
+    """Share of a chart's cells that are knots."""
+    return sum(_row_knots(chart)) / chart.knots.size
+
+
+def knots_saved(chart: Chart, weavers: int, share: float = 1.0) -> float:
+    """Knots in turn that a number of weavers has less than by a share of the cells: each row is shared evenly."""
     if chart.cells is None:
         return 0
     knots = np.array(_row_knots(chart))
-    return int((-(-chart.columns // weavers) - -(-knots // weavers)).sum())
+    return float((-(-chart.columns // weavers) * share - -(-knots // weavers)).sum())
 
 
 def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> LoomSetup:

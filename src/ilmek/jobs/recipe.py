@@ -278,7 +278,8 @@ def picture_pixels(
         picture = read_picture(path, progress, smallest=smallest, ground=ground, rendering=rendering)
         return picture.rgb, picture.notes
     chart, notes = read_chart(path, progress=progress)
-    return drawn_chart(chart), notes
+    bare = () if chart.cells is None else ("its map of cells is not kept: all cells are tied, as those beside",)
+    return drawn_chart(chart), (*notes, *bare)
 
 
 def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys | None = None) -> str:

@@ -41,10 +41,7 @@ def with_shape(made: OrderedChart, order: CarpetOrder) -> OrderedChart:
         covered = _on_grid(_covered(base / shape.file, Rendering(1, (chart.rows, chart.columns))), made)
     if covered is not None:
         chart = _inner_yarns(chart, covered)
-    done = shaped(chart, shape, None if covered is None else covered >= _HALF)
-    if covered is not None and done.reading.fit.outside:
-        done = done.read_as(replace(done.reading, fit=replace(done.reading.fit, outside=0.0, hidden=0.0)))
-    return replace(made, chart=done)
+    return replace(made, chart=shaped(chart, shape, None if covered is None else covered >= _HALF))
 
 
 def _inner_yarns(chart: Chart, covered: Codes) -> Chart:

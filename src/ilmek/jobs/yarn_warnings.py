@@ -52,7 +52,7 @@ def mass_warning(bill: YarnBill, quality: Quality) -> str:
 
     A carpet is too heavy by its field alone: of ends and selvedges a small one has more than those of the band.
     """
-    of_edges = ("end", "selvedge", "binding")
+    of_edges = ("end", "selvedge", "binding", "tape")
     band, edges = bill.band, sum(need.kept for need in bill.needs if need.use in of_edges) / bill.area
     if band is None or bill.area < SMALLEST_CARPET or band.least <= bill.mass_per_area <= band.most + edges:
         return ""

@@ -14,16 +14,13 @@ from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.machines.bearing_seats import BRACKET, CLEAR, BearingSeat, least_height
 from ilmek.part.catalogue import face_of
 from ilmek.part.part import LASER_CUT, WELDED, Part
-from ilmek.part.placement import Placement, placement
+from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, box, rectangle, square_tube
+from ilmek.part.shapes import Prism, rectangle, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.units import mm, turn
-
-HOLDER, HOLDER_LENGTH = 50 * mm, 10 * mm
-"""Side of what holds the eye of a torque arm, and its least length [m]; assumed by this project."""
 
 GAP, EDGE, SAFETY = 20 * mm, 5 * mm, 1.5
 """Room beside the shafts, from a bearing to the edges of its bracket [m], yield over stress of a bracket; assumed."""
@@ -37,8 +34,6 @@ class CarriedShaft:
     seat   of its bearings                inner  sides of these from the middle of the width [m]
     beside  room that it takes about its axis, its drive included [m]
     flange  radius about its axis of the room for the screws of its reducer [m]
-    under   room under its axis for its motor [m]
-    eye     of the torque arm of its reducer, in its axes
     """
 
     name: str
@@ -47,8 +42,6 @@ class CarriedShaft:
     inner: float
     beside: float
     flange: float = 0.0
-    under: float = 0.0
-    eye: Placement | None = None
 
     @property
     def edge(self) -> float:
@@ -63,16 +56,14 @@ class CarriedShaft:
 
 def column_face(shafts: Sequence[CarriedShaft]) -> float:
     """Front of the columns behind the axes of the shafts [m]."""
-    eyes = [-float(shaft.eye.origin[0]) - HOLDER for shaft in shafts if shaft.eye is not None]
-    return max([GAP + max(max(shaft.beside, shaft.edge) for shaft in shafts), *eyes])
+    return GAP + max(max(shaft.beside, shaft.edge) for shaft in shafts)
 
 
 def stand_heights(shafts: Sequence[CarriedShaft]) -> tuple[float, ...]:
     """Heights of the axes of shafts one below the other, the first at 0 [m]."""
     behind = column_face(shafts)
-    above = np.array([max(shaft.beside, _height(shaft, behind) / 2) + GAP / 2 for shaft in shafts])
-    under = np.maximum(above, [shaft.under + GAP / 2 for shaft in shafts])
-    return tuple((above[0] - np.cumsum(above + under) + under).tolist())
+    halves = [max(shaft.beside, _height(shaft, behind) / 2) + GAP / 2 for shaft in shafts]
+    return tuple((halves[0] - np.cumsum(2 * np.array(halves)) + halves).tolist())
 
 
 def shaft_stand(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Tree:
@@ -85,14 +76,11 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
     inner, outer = min(shaft.face for shaft in shafts), max(shaft.face for shaft in shafts) + BRACKET
     section = next((own for own in ascending() if own.side >= max(outer - inner, 3 * BRACKET)), ascending()[-1])
     half, axis = section.side / 2, -behind - section.side / 2
-    low, high = heights[-1] - max(shafts[-1].beside, shafts[-1].under) - GAP, heights[0] + shafts[0].beside
+    low, high = heights[-1] - shafts[-1].beside - GAP, heights[0] + shafts[0].beside
     for shaft, height in zip(shafts, heights, strict=True):
         own, title = _bracket(shaft, behind), f"bracket of the {shaft.name}"
         part = Part(name(f"{shaft.key}-bracket"), title, LASER_CUT, own, STEEL, machined=True)
         yield Occurrence(part, (placement(0.0, height, shaft.face), placement(0.0, height, -shaft.face - BRACKET)))
-        if shaft.eye is not None:
-            eye, long = placement(y=height).after(shaft.eye), float(shaft.eye.origin[2]) - inner - section.side
-            yield arm_holder(name(f"{shaft.key}-arm-holder"), shaft.name, name("side-column"), eye, long)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4)
     column = stock(name("side-column"), "column of the stand", section, high - low)
     yield Occurrence(column, tuple(placement(axis, low, z).after(upright) for z in (-inner - half, inner + half)))
@@ -101,17 +89,6 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
     yield Occurrence(foot, tuple(placement(start, low - half, z).after(along) for z in (-inner - half, inner + half)))
     across = stock(name("side-member"), "member across the stand", section, 2 * inner)
     yield Occurrence(across, tuple(placement(axis, y, -inner) for y in (low + half, high - half)))
-
-
-def arm_holder(name: str, of: str, column: str, eye: Placement, length: float) -> Occurrence:
-    """The plate that is welded to the outer face of a column and holds a torque arm, its end at the face of its eye.
-
-    of  the shaft      column  id of its part      length  from the column to the eye [m]: too little fails a check
-    """
-    long = max(length, HOLDER_LENGTH)
-    title, joins = f"holder of the torque arm of the {of}", (column,)
-    part = Part(name, title, LASER_CUT, box(HOLDER, HOLDER, long), STEEL, machined=True, joins=joins)
-    return Occurrence(part, (eye.after(placement(z=-long)),))
 
 
 def stock(name: str, title: str, section: HollowSquare, length: float) -> Part:

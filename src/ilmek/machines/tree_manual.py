@@ -312,6 +312,7 @@ def _row(
         if part.process == FASTENER or tightening_of(part)
     ]
     fastened += [(seam, pair) for *pair, seam in step.welds]
+    fastened += [(part.fixing, (part.id,)) for part in parts if part.fixing]
     named = [f"{parts[part]} × {titles[part.id]}" for part in parts if part.process != FASTENER]
     tools = step_tools({**parts, **fasteners}, step.lifted, moving=not moving.isdisjoint(step.bodies))
     return (

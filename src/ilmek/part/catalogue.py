@@ -78,6 +78,10 @@ FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
 
 
+REAR_THREADS = "threads as in its flange also in its rear cover"
+"""How a motor is ordered that stands on its rear cover."""
+
+
 def motor(  # noqa: PLR0917
     name: str,
     title: str,
@@ -88,18 +92,20 @@ def motor(  # noqa: PLR0917
     *,
     shaft: tuple[float, float] | None = None,
     rear: bool = False,
+    standing: bool = False,
 ) -> Part:
     """A motor, which drives an axis of the control: its flange at z = 0, its shaft towards +z.
 
     together  how many of them move one body      shaft  diameter and length of its end in a hub [m]; None: not drawn
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     rear  it has a rear shaft end, for a brake or an encoder behind it
+    standing  it stands on its rear cover, which is ordered with the threads of its flange
     """
-    feedback = f"{FEEDBACK}, rear shaft end" if rear else FEEDBACK
-    holes = flange_holes(row)
+    feedback = ", ".join((FEEDBACK, *["rear shaft end"] * rear, *[REAR_THREADS] * standing))
+    holes = tuple(replace(own, tapped=True, faces=(-1,)) if standing else own for own in flange_holes(row))
     if row is not None:
         peak = "holding" if row.kind == STEPPER else "peak"
-        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {flange_text(row)}, {feedback}"
+        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}, {feedback}"
         bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data, holes=holes)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
@@ -191,8 +197,9 @@ def reducer(  # noqa: PLR0917
                 Placed(Prism(Profile(rectangle(face, face), bores), thick), (placement(z=long - thick),)),
             )
         )
-    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {flange_text(row)}") if row else ()
-    data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}, {_holes_text(holes)}", *motors))
+    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
+    threads = f"{_holes_text(holes)} at its output and in its sides" if across else _holes_text(holes)
+    data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}", threads, *motors))
     kind = f"right-angle {by.kind}" if across else by.kind
     both = holes, replace(*flange_holes(row), tapped=True, faces=(-1,))
     bought = Bought(f"{kind} {by.ratio:g}:1", flange.mass, power=row.power if row else 0.0, data=data, holes=both)
@@ -223,8 +230,7 @@ def _holes_text(holes: HolePattern) -> str:
     return f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on ⌀{circle_of_holes}"
 
 
-def flange_text(row: Motor) -> str:
-    """Flange of a motor with its holes, and its shaft."""
+def _flange_of(row: Motor) -> str:
     (holes,) = flange_holes(row)
     return f"flange {in_mm(row.face)}, {_holes_text(holes)}, shaft {in_mm(row.shaft)}"
 
@@ -300,7 +306,7 @@ def set_screw(hub: float) -> float:
 def flange_holes(row: Motor | None) -> tuple[HolePattern, ...]:
     """The holes of the flange of a motor, or of one that is in no table."""
     pitch, thread, tapped = FLANGE_HOLES[row.face if row else SPECIAL_FACE]
-    return (HolePattern(pitch, pitch, thread, tapped=tapped, faces=(-1, 1) if tapped else (1,)),)
+    return (HolePattern(pitch, pitch, thread, tapped=tapped, faces=(1,)),)
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:

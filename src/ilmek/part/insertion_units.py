@@ -193,7 +193,8 @@ def _units(
         kept = tuple(unit for unit in single if not _comes_after(unit, single))
         if kept:
             whole = tuple(piece for unit in kept for piece in unit.pieces)
-            yield InsertedUnit(next(numbers), link.name, whole, axes, carriers, kept if len(kept) > 1 else ())
+            inner = kept if len(kept) > 1 else ()
+            yield InsertedUnit(kept[0].number, link.name, whole, axes, carriers, inner)  # before its own screws
         yield from (unit for unit in single if unit not in kept)
 
 

@@ -56,6 +56,7 @@ ARABIC = {
     "ground.sinuous-weft": "اللحمة المتموجة",
     "ground.ends": "كليم الطرفين",
     "ground.binding": "حبكة الحافة",
+    "ground.tape": "شريط الحافة",
     "ground.selvedges": "الحاشيتان",
     # Chart
     "chart.title": "مخطط العقد: {name}",

@@ -70,6 +70,7 @@ ENGLISH = {
     "ground.sinuous-weft": "sinuous weft",
     "cell.no-knot": "no knot",
     "ground.binding": "binding",
+    "ground.tape": "tape of the edge",
     "ground.ends": "ends",
     "ground.selvedges": "selvedges",
     # Values of parameters

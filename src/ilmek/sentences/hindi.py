@@ -56,6 +56,7 @@ HINDI = {
     "ground.sinuous-weft": "लहरदार बाना",
     "ground.ends": "सिरों की सपाट बुनाई",
     "ground.binding": "किनारे की बँधाई",
+    "ground.tape": "किनारे का फीता",
     "ground.selvedges": "किनारी",
     # Chart
     "chart.title": "गाँठों का नक्शा: {name}",

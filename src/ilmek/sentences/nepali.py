@@ -56,6 +56,7 @@ NEPALI = {
     "ground.sinuous-weft": "बाङ्गो बाना",
     "ground.ends": "छेउको सादा बुनाइ",
     "ground.binding": "किनाराको बँधाइ",
+    "ground.tape": "किनाराको फित्ता",
     "ground.selvedges": "किनार",
     # Chart
     "chart.title": "गाँठाको नक्सा: {name}",

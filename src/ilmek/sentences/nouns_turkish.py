@@ -142,6 +142,37 @@ Beat by hand = Elle tefeleme | Beat-up = Tefeleme | Hammer = Tokmak | Hand shed 
 Knotting head = Düğüm kafa+sı | Knotting dyad = Düğüm diyad+ı | Knotting four-bar = Dört çubuklu düğüm mekanizma+sı
 Shedding cams = Ağızlık kamlar+ı | Tension compensator = Gerginlik dengeleyici+si | Weft = Atkı
 Tufting needle mechanism = Tufting iğne mekanizma+sı | Warp tension = Çözgü gerginliğ+i
+torque arm = moment kol+u | holder = tutucu | left side plate = sol yan levha | right side plate = sağ yan levha
+four screws M4 through the door into its handle = dört M4 vida kapıdan kolunun içine
+two screws M6 into the threads of the plate = iki M6 vida levhanın dişlerine
+its clips snap into its cut-out in the door = tırnakları kapıdaki kesiğine oturur
+clamps on the rear shaft end of its motor = motorunun arka mil ucuna sıkılır
+its spring plate with screws takes the torque = vidalı yay levhası momenti alır
+its set screw clamps it in a slot of the axis = setuskuru onu eksenin kanalında sıkar
+two screws M4 through the mesh into its counter plate = iki M4 vida örgüden karşı levhasına
+hangs in its holder, which comes with two screws = iki vidayla gelen tutucusunda asılı
+its ring nut clamps it in its hole in the door = halka somunu onu kapıdaki deliğinde sıkar
+built onto its motor by the maker = üreticisi tarafından motoruna takılı
+lies half in its slot, by cable ties at its ends until the first turn of the warps keeps it = \
+yarısı oluğunda yatar, çözgünün ilk sarımı onu tutana kadar uçlarında kablo bağıyla
+its hinges on the wall of the cabinet, of its maker = pano duvarında, üreticisinin menteşeleriyle
+its nuts on the studs of the cabinet's wall = somunları pano duvarının saplamalarında
+its end brackets, each with two screws M5, on trough and arm = uç braketleri, ikişer M5 vidayla, oluk ve kol üzerinde
+two screws M6 with washers through the slots of its base into the plate of its stand = \
+tabanının yarıklarından iki pullu M6 vida ayaklığının levhasına
+snaps onto its rail, EN 60715 = rayına geçer, EN 60715
+screws M6 through its slots into the threads of the plate, EN 60715 = \
+yarıklarından M6 vidalar levhanın dişlerine, EN 60715
+its clamps, each with a screw M8, on the posts = kelepçeleri, her biri bir M8 vidayla, dikmelerde
+halves of its hinges, welded to its post = menteşe yarıları, dikmesine kaynaklı
+its halves welded to the post and to the frame of the door = yarıları dikmeye ve kapının çerçevesine kaynaklı
+on the adapter of its slide, with the screws of that = kızağının adaptöründe, onun vidalarıyla
+bonded in its pocket = cebine yapıştırılı | bonded in its slot = yarığına yapıştırılı
+on the input shaft of its reducer, with the key of that = redüktörünün giriş milinde, onun kamasıyla
+its loop lies round the bar = ilmeği çubuğun çevresinde | bonded with epoxy resin = epoksi reçineyle yapıştırılı
+its shank in the needle bar, with a set screw = sapı iğne çubuğunda, setuskurla
+its stub is bonded in the end of the rapier = sapı kancanın ucuna yapıştırılı
+its clamp grips the end of the rapier with its own screws = kelepçesi kancanın ucunu kendi vidalarıyla kavrar
 """
 
 NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair in line.split(" | "))

@@ -265,6 +265,7 @@ PAPERS = {
     "foundation.how": "Datum: the axis of the left front levelling foot. Mark all positions from it, check both "
     "diagonals of the feet to 2 mm. Anchors: concrete C20/25 or better, holes {drill}, {depth} deep, "
     "blown out; tighten to {torque} when the loom is level.",
+    "foundation.datum": "{number}, datum 0/0",
     "foundation.number": "number",
     "foundation.part": "part",
     "foundation.right": "to the right",

@@ -265,6 +265,7 @@ PAPERS = {
     "foundation.how": "Ölçü başlangıcı: sol ön ayar ayağının ekseni. Bütün yerleri buradan işaretleyin, ayakların iki "
     "köşegenini 2 mm içinde denetleyin. Ankrajlar: C20/25 veya üstü beton, delik {drill}, {depth} "
     "derin, üflenmiş; tezgâh düzken {torque} ile sıkın.",
+    "foundation.datum": "{number}, başlangıç 0/0",
     "foundation.number": "sıra",
     "foundation.part": "parça",
     "foundation.right": "sağa",

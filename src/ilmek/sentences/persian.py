@@ -56,6 +56,7 @@ PERSIAN = {
     "ground.sinuous-weft": "پود نازک",
     "ground.ends": "گلیم‌باف دو سر",
     "ground.binding": "لبه‌دوزی",
+    "ground.tape": "نوار لبه",
     "ground.selvedges": "شیرازه",
     # Chart
     "chart.title": "نقشه‌ی گره: {name}",

@@ -49,10 +49,10 @@ SHEETS = {
     "sheet.axial-play": "Axial play of the cam shaft between the plates' lips {low}…{high}: grind an end spacer",
     "sheet.shims": "Pile at nominal thickness, of sheets of {kit} mm; chosen at assembly: 0 to {most}, to {step}",
     "sheet.bonded": "bonded on its shaft with retaining compound",
-    "sheet.gear": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, tip ⌀{tip}, root "
-    "⌀{root}, class {quality}",
+    "sheet.gear": "teeth: module {module}, {teeth} teeth, profile shift {shift}, pressure angle {angle}, "
+    "tip ⌀{tip}, root ⌀{root}, class {quality}",
     "sheet.rack": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, pitch {pitch}, tip "
-    "{tip} over the pitch line, class {quality}",
+    "{tip} over the pitch line, back {back} under it, class {quality}",
     "sheet.belt-teeth": "side on the belt: {teeth} teeth of the profile {belt}, pitch {pitch}, across the length",
     "sheet.window": "window {size} high ({least}…{most}), wire-cut, its corners R 0.2 at most",
     "sheet.lever-slots": "slots {size} ({least}…{most}), wire-cut, their middles on the axis of the bore ±{off}",

@@ -49,10 +49,10 @@ SHEETS = {
     "sheet.axial-play": "Kam milinin levha faturaları arasında boşluğu {low}…{high}: uçtaki ara parça taşlanır",
     "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
-    "sheet.gear": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, baş ⌀{tip}, dip ⌀{root}, "
-    "sınıf {quality}",
+    "sheet.gear": "dişler: modül {module}, {teeth} diş, profil kaydırma {shift}, kavrama açısı {angle}, "
+    "baş ⌀{tip}, dip ⌀{root}, sınıf {quality}",
     "sheet.rack": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, adım {pitch}, baş adım "
-    "çizgisinin {tip} üstünde, sınıf {quality}",
+    "çizgisinin {tip} üstünde, sırtı {back} altında, sınıf {quality}",
     "sheet.belt-teeth": "kayış tarafı: {belt} profilinde {teeth} diş, adım {pitch}, boya dik",
     "sheet.window": "pencere yüksekliği {size} ({least}…{most}), tel erozyon, köşeler en çok R 0,2",
     "sheet.lever-slots": "yarıklar {size} ({least}…{most}), tel erozyon, orta düzlemleri delik ekseninden {off} içinde",

@@ -70,6 +70,7 @@ TURKISH = {
     "ground.sinuous-weft": "dalgalı atkı",
     "cell.no-knot": "ilmeksiz",
     "ground.binding": "kenar overloğu",
+    "ground.tape": "kenar şeridi",
     "ground.ends": "kilim uçları",
     "ground.selvedges": "kenarlar",
     # Values of parameters

@@ -56,6 +56,7 @@ URDU = {
     "ground.sinuous-weft": "لہردار بانا",
     "ground.ends": "سروں کی گلیم بنائی",
     "ground.binding": "کنارے کی سلائی",
+    "ground.tape": "کنارے کا فیتہ",
     "ground.selvedges": "کنارے",
     # Chart
     "chart.title": "گرہوں کا نقشہ: {name}",

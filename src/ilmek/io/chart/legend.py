@@ -5,11 +5,12 @@ from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.mounting import TENS, Mounting
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
-from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
+from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
 from ilmek.sentences import Sentence
 from ilmek.units import cm, format_number, g, mm
 
@@ -62,6 +63,11 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         draw_entry(canvas, chart, inks, (index, tied.of(index), total), (_LEFT, y, _WIDTH if needs else _ALONE))
         if index in needs:
             _write_need(canvas, needs[index], y)
+    if (chart.knots == NO_KNOT).any():
+        y = _room(canvas, y, _LINE, bool(needs))
+        _swatch(canvas, inks, NO_KNOT, _LEFT, y)
+        canvas.setFont(TEXT, 9)
+        canvas.write(_LEFT + 52.0, y, Sentence("rows.text-plain", sign=NO_SIGN))
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
@@ -78,6 +84,18 @@ def draw_entry(
     box     where it begins from the side where lines begin, baseline and width [pt]
     """
     (index, count, total), (x, y, width) = counts, box
+    _swatch(canvas, inks, index, x, y)
+    canvas.setFont(TEXT, 9)
+    share = 100 * count / total
+    number = thousands(count)
+    _write_number(canvas, x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
+    _write_number(canvas, x + width - 44.0, y, number)
+    used = max(canvas.text_width(number), _ROOM) if canvas.leftward else canvas.text_width(number)
+    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - used)
+
+
+def _swatch(canvas: PrintCanvas, inks: Inks, index: int, x: float, y: float) -> None:
+    """Draw the colour of a code of the chart with its sign, and the sign alone beside it."""
     canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)
     canvas.setLineWidth(0.4)
@@ -87,13 +105,6 @@ def draw_entry(
     canvas.draw_sign(canvas.side(x + 12.0), y, inks.symbols[index])
     canvas.setFillGray(0.1)
     canvas.draw_sign(canvas.side(x + 38.0), y, inks.symbols[index])
-    canvas.setFont(TEXT, 9)
-    share = 100 * count / total
-    number = thousands(count)
-    _write_number(canvas, x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
-    _write_number(canvas, x + width - 44.0, y, number)
-    used = max(canvas.text_width(number), _ROOM) if canvas.leftward else canvas.text_width(number)
-    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - used)
 
 
 def _write_number(canvas: PrintCanvas, end: float, y: float, text: str) -> None:

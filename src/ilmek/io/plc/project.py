@@ -34,15 +34,12 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
     """The control program that weaves a programme's carpet, and others that are no larger.
 
     cycle  of the controller's task [s]
-    Raises LoomError for a row of more than MOST_COLUMNS knots, and for heads that would have to stand aside.
+    Raises LoomError for a row of more than MOST_COLUMNS knots, and for cells without a knot.
     """
     setup = programme.setup
     if setup.columns > MOST_COLUMNS:
         raise LoomError(f"a row of {setup.columns} knots", allowed=f"at most {MOST_COLUMNS} for a PLC")
-    if setup.heads > 1 and setup.row_knots is not None:
-        given = f"a programme with cells without a knot, for {setup.heads} heads"
-        do = "weave it with --heads 1, or a rectangle"
-        raise LoomError(given, allowed="heads that tie in every phase: no program of a PLC leads a head aside", do=do)
+    require_all_knots(setup)
     size = size_of(programme, cycle)
     drives = drive_units(setup, cycle)
     records = (*structures(size), *([axis_structure()] if drives else []))
@@ -54,6 +51,16 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
         *sequence_units(size),
     )
     return PlcProject("loom", records, units, cycle, _remarks(setup, programme.digest))
+
+
+def require_all_knots(setup: LoomSetup) -> None:
+    """Raise LoomError for a carpet with cells without a knot: a PLC counts knots by columns, and leads no head aside."""
+    if setup.row_knots is not None:
+        raise LoomError(
+            "a programme with cells without a knot",
+            allowed="for a PLC, a knot in every cell: its program counts knots by columns, and leads no head aside",
+            do="weave it with `ilmek run` or `ilmek serve`, or as a rectangle",
+        )
 
 
 def size_of(programme: LoomProgramme, cycle: float = CYCLE) -> PlcSize:

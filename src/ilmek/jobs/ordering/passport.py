@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ilmek.carpet.bill import YarnNeed
 from ilmek.carpet.footprint import FACTORS, emissions
+from ilmek.carpet.ground import TAPE_MATERIAL
 from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.io.call_state import chart_digest
 from ilmek.jobs.ordering.offering import OrderLine
@@ -78,7 +79,8 @@ def carpet_record(
 
 def _material(need: YarnNeed, yarns: CarpetYarnParams) -> str:
     """The fibre of a line of the bill; selvedges are of the pile's yarn, ends of the weft's."""
-    return {"warp": yarns.warp, "weft": yarns.weft, "end": yarns.weft}.get(need.use, yarns.pile)
+    own = {"warp": yarns.warp, "weft": yarns.weft, "end": yarns.weft, "tape": TAPE_MATERIAL}
+    return own.get(need.use, yarns.pile)
 
 
 def _spun(needs: tuple[YarnNeed, ...], materials: CarpetYarnParams) -> dict[str, float]:

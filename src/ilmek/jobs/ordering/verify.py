@@ -10,6 +10,7 @@ from ilmek.report import Check, must
 
 _MOST_FILES = 10_000
 _SCHEME = "ilmek:"
+_CURE = "do not trust this copy: ask who signed the record for his own"
 
 
 @record
@@ -25,7 +26,7 @@ class VerifiedRecord:
         """That nothing was changed; each fault is a failed check."""
         if not self.faults:
             return (must("record as it was written", True, str(self.path)),)
-        return tuple(must(f"record: {fault}", False, str(self.path)) for fault in self.faults)
+        return tuple(must(f"record: {fault}", False, str(self.path)).with_cure(_CURE) for fault in self.faults)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from ilmek.errors import LoomError
 from ilmek.io.plc.host_data import HostRow, digest_words, host_row
+from ilmek.io.plc.project import require_all_knots
 from ilmek.io.plc.sequence_variables import LAST_BEAT
 from ilmek.jobs.plc.host_journal import HostJournal
 from ilmek.loom.control.alarms import ALARMS, JournalFault
@@ -56,6 +57,7 @@ class Feeder:
         rows: Callable[[int], HostRow] | None = None,
     ) -> None:
         setup = programme.setup
+        require_all_knots(setup)
         if sizes["Columns"] < setup.columns or sizes["First"] != setup.heads:
             raise LoomError(
                 f"a PLC's program for {sizes['First']} heads and {sizes['Columns']} columns",

@@ -35,7 +35,19 @@ from ilmek.loom.control.jogs import jog_refused
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import PackMode, PackState, Refusal, commanded, mode_refused, state_name
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Home, Jog, Order, SensorsChanged, Tie
+from ilmek.loom.control.ports import (
+    ChangePackages,
+    Done,
+    EndRow,
+    Failed,
+    Fault,
+    Home,
+    Jog,
+    Order,
+    SensorsChanged,
+    StandAside,
+    Tie,
+)
 from ilmek.loom.control.sequence import LOOM, Sequence, key_of
 from ilmek.loom.control.state import AXIS, MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft
 from ilmek.loom.operations import LoomProgramme
@@ -123,29 +135,32 @@ class Controller(ControlCore):
         draft.orders += chosen
         return False
 
-    def _chosen(self) -> list[Operation]:
-        """The operations of the frontier that are not in progress, as far as maintenance mode allows."""
+    def _chosen(self) -> list[Operation | StandAside]:
+        """The moves aside, and the operations of the frontier that are not in progress, as far as the mode allows."""
         state = self.state
         sequence, progress = state.sequence, state.progress
         whole = sequence.of_loom()
         chosen: list[Operation] = []
+        moves: list[StandAside] = []
         if whole is not None:
             if not progress:
                 chosen.append(whole)
         elif not sequence.finished:
             for head in range(len(sequence.upcoming)):
                 if head not in progress:
-                    one = sequence.of_head(head)
+                    one, move = sequence.of_head(head), sequence.stand_aside(head)
                     if one is not None:
                         chosen.append(one)
+                    elif move is not None:
+                        moves.append(move)
         if state.allowance is not None and chosen:
             chosen = chosen[: state.allowance]
             state.allowance -= len(chosen)
-        return chosen
+        return [*moves, *chosen]
 
-    def _may_begin(self, order: Operation, draft: Draft) -> bool:
+    def _may_begin(self, order: Operation | StandAside, draft: Draft) -> bool:
         state = self.state
-        head = order.head if isinstance(order, Tie) else None
+        head = order.head if isinstance(order, Tie | StandAside) else None
         if state.sensors is None:
             self.raise_alarm(ControlFault.NO_SENSORS, draft)
             return False
@@ -175,7 +190,9 @@ class Controller(ControlCore):
         del state.progress[key]
         if isinstance(order, Home):
             self.homed(order, draft)
-        if isinstance(order, Jog | Home):
+        if isinstance(order, StandAside):
+            state.sequence.stood(order)
+        if isinstance(order, StandAside | Jog | Home):
             return
         self.completed(order, Origin.REPORT, draft)
         if isinstance(order, EndRow) and state.watch:
@@ -205,16 +222,16 @@ class Controller(ControlCore):
         if isinstance(order, Home):
             self.raise_alarm(ControlFault.NOT_HOME, draft, note=f"{order.axis}: {report.fault}")
             return
-        if state.allowance is not None:
+        if state.allowance is not None and not isinstance(order, StandAside):
             state.allowance += 1
         if report.fault is Fault.MISSED_GRIP and key not in state.retried:
             state.retried.add(key)
             state.retries += 1
             return
-        if not isinstance(order, Jog):
+        if not isinstance(order, StandAside | Jog):
             state.doubts[key] = Doubt(order, onward=False)
         state.retried.discard(key)
-        head = order.head if isinstance(order, Tie) else None
+        head = order.head if isinstance(order, Tie | StandAside) else None
         self.raise_alarm(report.fault, draft, head=head)
 
     def _sensors_changed(self, report: SensorsChanged, draft: Draft) -> None:
@@ -356,7 +373,11 @@ class Controller(ControlCore):
             speed=state.speed,
             time=state.time,
             heads=tuple(
-                HeadStatus(sequence.upcoming_of(head, SHOWN_KNOTS), sequence.upcoming[head], head in state.progress)
+                HeadStatus(
+                    sequence.upcoming_of(head, SHOWN_KNOTS),
+                    sequence.upcoming[head],
+                    isinstance(state.progress.get(head), Tie),
+                )
                 for head in range(len(sequence.upcoming))
             ),
             operation=whole if isinstance(whole, EndRow | ChangePackages) else None,

@@ -10,7 +10,7 @@ from ilmek.loom.control.interlocks import Interlock, LoomAxis, Reaction, usual_l
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import COMPLETED, MODE_STATES, PackCommand, PackMode, PackState, commanded
-from ilmek.loom.control.ports import EndRow, Home, Jog, Tie
+from ilmek.loom.control.ports import EndRow, Home, Jog, StandAside, Tie
 from ilmek.loom.control.state import AXIS, ControllerSettings, Doubt, Draft, state_of
 from ilmek.loom.operations import LoomProgramme
 
@@ -142,7 +142,7 @@ class ControlCore:
         """What was in progress when the loom was halted, and has not been reported since, is uncertain."""
         state = self.state
         for key, order in state.progress.items():
-            if not isinstance(order, Jog | Home):
+            if not isinstance(order, StandAside | Jog | Home):
                 state.doubts[key] = Doubt(order, onward=False)
         state.progress.clear()
         state.halted = False

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from enum import StrEnum
 from types import MappingProxyType
 
-from ilmek.loom.control.ports import ChangePackages, EndRow, Order, Sensors, Tie
+from ilmek.loom.control.ports import ChangePackages, EndRow, Order, Sensors, StandAside, Tie
 from ilmek.loom.operations import RowEnd
 from ilmek.records import value_record
 from ilmek.weaving.tension import TENSION_LEAST, TENSION_MOST, usual_tension
@@ -73,6 +73,8 @@ def axes_of(order: Order) -> frozenset[LoomAxis]:
     """The axes that an order moves."""
     if isinstance(order, Tie):
         return _KNOT
+    if isinstance(order, StandAside):
+        return frozenset((LoomAxis.CARRIAGE,))
     if isinstance(order, EndRow):
         return ROW_END_AXES[order.operation]
     if isinstance(order, ChangePackages):

@@ -24,6 +24,16 @@ class Tie:
 
 
 @value_record
+class StandAside:
+    """A head without a knot in a phase of a row goes to warp pair `column`, out of the others' reach, as they begin."""
+
+    head: int
+    row: int
+    phase: int
+    column: int
+
+
+@value_record
 class EndRow:
     """An operation after the knots of a row."""
 
@@ -53,7 +63,7 @@ class Home:
     axis: str
 
 
-Order: TypeAlias = Tie | EndRow | ChangePackages | Jog | Home
+Order: TypeAlias = Tie | StandAside | EndRow | ChangePackages | Jog | Home
 
 
 class Fault(StrEnum):

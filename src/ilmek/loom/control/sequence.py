@@ -8,8 +8,9 @@ from itertools import pairwise
 
 from ilmek.errors import LoomError
 from ilmek.loom.control.exchange import Operation
-from ilmek.loom.control.ports import ChangePackages, EndRow, Tie
-from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
+from ilmek.loom.control.ports import ChangePackages, EndRow, StandAside, Tie
+from ilmek.loom.operations import LoomProgramme, RowEnd, RowOperations, Stop
+from ilmek.loom.standing import standing
 
 ROWS_BACK = 20
 """Most whole rows that are taken out at once: a length of carpet that is still before the cloth beam (assumed)."""
@@ -18,15 +19,18 @@ LOOM = -1
 """Key of an operation of the whole loom, where a head's is its number."""
 
 
-def key_of(operation: Operation) -> int:
+def key_of(operation: Operation | StandAside) -> int:
     """Who carries an operation out: the number of the head, or LOOM."""
-    return operation.head if isinstance(operation, Tie) else LOOM
+    return operation.head if isinstance(operation, Tie | StandAside) else LOOM
 
 
 class RowWork:
-    """The operations of a row as plain lists: of each head its columns and tubes, of each phase where heads end it."""
+    """The operations of a row as plain lists: of each head its columns and tubes, of each phase where heads end it.
 
-    __slots__ = ("columns", "ends", "limits", "stops", "tubes")
+    aside  of each phase, where the heads stand that tie no knot in it
+    """
+
+    __slots__ = ("aside", "columns", "ends", "limits", "stops", "tubes")
 
     def __init__(self, programme: LoomProgramme, number: int) -> None:
         row = programme.operations(number)
@@ -37,6 +41,15 @@ class RowWork:
         self.limits: list[list[int]] = row.counts.cumsum(axis=1).T.tolist()
         self.ends: tuple[RowEnd, ...] = row.ends
         self.stops: tuple[Stop, ...] = row.stops
+        self.aside: list[dict[int, int]] = [{} for _ in self.limits]
+        if not row.counts.all():
+            self.aside = [self._standing(row, phase, programme.setup.columns) for phase in range(row.phases)]
+
+    def _standing(self, row: RowOperations, phase: int, columns: int) -> dict[int, int]:
+        """Where the heads stand that tie no knot in a phase."""
+        ends = self.limits[phase]
+        tied = [of[end - count : end] for of, end, count in zip(self.columns, ends, row.counts[:, phase], strict=True)]
+        return standing([(min(knots), max(knots)) if knots else None for knots in tied], columns)
 
 
 class Sequence:
@@ -44,10 +57,12 @@ class Sequence:
 
     row, phase  in work            upcoming  number of each head's next knot in the row
     stops_done, ends_done          of the row
+    aside       heads that are still to stand aside in the phase, and where
     stop_row                       first row that needs nothing but the packages of the last stop
     """
 
-    __slots__ = ("_left", "_programme", "_work", "ends_done", "phase", "row", "stop_row", "stops_done", "upcoming")
+    __slots__ = ("_left", "_programme", "_work", "aside", "ends_done", "phase", "row", "stop_row", "stops_done",
+                 "upcoming")  # fmt: skip
 
     def __init__(self, programme: LoomProgramme, row: int = 0, stop_row: int = 0) -> None:
         self._programme, self.stop_row = programme, stop_row
@@ -58,7 +73,7 @@ class Sequence:
         made = Sequence.__new__(Sequence)
         for name in Sequence.__slots__:
             setattr(made, name, getattr(self, name))
-        made.upcoming = self.upcoming.copy()
+        made.upcoming, made.aside = self.upcoming.copy(), self.aside.copy()
         return made
 
     def position(self) -> tuple[int, ...]:
@@ -83,6 +98,17 @@ class Sequence:
         if number >= work.limits[self.phase][head]:
             return None
         return Tie(head, self.row, number, work.columns[head][number], work.tubes[head][number])
+
+    def stand_aside(self, head: int) -> StandAside | None:
+        """The move of a head without a knot in this phase, out of the reach of the others."""
+        if head not in self.aside or not self._left or self._stop() is not None:
+            return None
+        return StandAside(head, self.row, self.phase, self.aside[head])
+
+    def stood(self, order: StandAside) -> None:
+        """A head stands aside; of a phase that is over it does not matter."""
+        if order == self.stand_aside(order.head):
+            del self.aside[order.head]
 
     def of_loom(self) -> EndRow | ChangePackages | None:
         """The operation of the whole loom that is next; None: the heads tie, or the carpet is woven."""
@@ -156,10 +182,10 @@ class Sequence:
     def _begin(self, row: int) -> None:
         self.row, self.phase, self.stops_done, self.ends_done = row, 0, 0, 0
         heads = self._programme.setup.heads
-        self.upcoming, self._left = [0] * heads, 0
+        self.upcoming, self._left, self.aside = [0] * heads, 0, {}
         if row < self._programme.setup.rows:
             self._work = RowWork(self._programme, row)
-            self._left = sum(self._work.limits[0])
+            self._left, self.aside = sum(self._work.limits[0]), self._work.aside[0].copy()
             self._advance()
 
     def _advance(self) -> None:
@@ -168,6 +194,6 @@ class Sequence:
         while not self._left and self._stop() is None and self.phase + 1 < len(work.limits):
             before = sum(work.limits[self.phase])
             self.phase += 1
-            self._left = sum(work.limits[self.phase]) - before
+            self._left, self.aside = sum(work.limits[self.phase]) - before, work.aside[self.phase].copy()
         if not self._left and self._stop() is None and self.ends_done >= len(work.ends):
             self._begin(self.row + 1)

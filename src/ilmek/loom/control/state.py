@@ -8,7 +8,7 @@ from ilmek.loom.control.interlocks import LoomAxis, TensionLimits
 from ilmek.loom.control.journal import MOST_LAG, encode_record
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import PackMode, PackState, Refusal
-from ilmek.loom.control.ports import EndRow, Home, Jog, Order, Sensors, Tie
+from ilmek.loom.control.ports import EndRow, Home, Jog, Order, Sensors, StandAside, Tie
 from ilmek.loom.control.sequence import Sequence
 from ilmek.records import value_record
 
@@ -79,7 +79,7 @@ class ControllerState:
     goal: int = 0
     allowance: int | None = None
     homed: set[LoomAxis] = field(default_factory=set)
-    progress: dict[int, Operation | Jog | Home] = field(default_factory=dict)
+    progress: dict[int, Operation | StandAside | Jog | Home] = field(default_factory=dict)
     doubts: dict[int, Doubt] = field(default_factory=dict)
     retried: set[int] = field(default_factory=set)
     alarms: dict[tuple[str, int | None], ActiveAlarm] = field(default_factory=dict)

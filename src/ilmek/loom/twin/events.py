@@ -3,7 +3,18 @@
 import hashlib
 import struct
 
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Home, Order, PortReport, SensorsChanged, Tie
+from ilmek.loom.control.ports import (
+    ChangePackages,
+    Done,
+    EndRow,
+    Failed,
+    Home,
+    Order,
+    PortReport,
+    SensorsChanged,
+    StandAside,
+    Tie,
+)
 from ilmek.loom.operations import Stop
 from ilmek.units import BILLION
 
@@ -29,6 +40,8 @@ def order_words(order: Order) -> str:
     """
     if isinstance(order, Tie):
         return f"tie {order.head} {order.row} {order.number} {order.column} {order.tube}"
+    if isinstance(order, StandAside):
+        return f"aside {order.head} {order.row} {order.phase} {order.column}"
     if isinstance(order, EndRow):
         return f"end {order.row} {int(order.operation)}"
     if isinstance(order, ChangePackages):

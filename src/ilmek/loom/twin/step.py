@@ -9,7 +9,8 @@ clock: the same inputs give the same state, reports and digest everywhere, and s
     after a row     operation i ends row_ends[i] after the last knot, if each begins when the one before has ended
     failure         an operation that fails lasts its whole time, and nothing of it is in the carpet
 
-A head stands at its first knot of a row when the row begins. An operation that does not end is reported after WATCHDOG
+A head stands at its first knot of a row when the row begins. A head that stands aside gets there while the others go to
+their knots: that is reported at once. An operation that does not end is reported after WATCHDOG
 times its duration.
 """
 
@@ -29,6 +30,7 @@ from ilmek.loom.control.ports import (
     Jog,
     PortReport,
     SensorsChanged,
+    StandAside,
     Tie,
 )
 from ilmek.loom.twin.acts import acted, changed_packages, halted
@@ -82,6 +84,8 @@ class _Run:
     def take(self, one: PlantInput) -> None:
         if type(one) is Tie:
             self.begin_knot(one)
+        elif isinstance(one, StandAside):
+            self.stand_aside(one)
         elif isinstance(one, EndRow | ChangePackages | Jog | Home):
             self.begin_work(one)
         elif isinstance(one, PowerOn):
@@ -91,13 +95,13 @@ class _Run:
 
     def begin_knot(self, order: Tie) -> None:
         plant, condition = self.plant, self.condition
-        _require_knot(plant, order)
+        _require_knot(plant, order.head, order.row, order.column, order.tube)
         head = self.heads[order.head]
         if head.order is not None or condition.work is not None:
             raise _busy(f"head {order.head}")
         apart = 0 if order.number == 0 or head.column < 0 else abs(order.column - head.column) - 1
         if head.condition.closed and apart > 0:
-            raise LoomError(f"head {order.head} moves with its gripper closed on warps", do="open the gripper first")
+            raise _closed(order.head)
         first = plant.times.travel * apart if apart > 0 else 0
         if head.tube not in (order.tube, NOWHERE):
             first += plant.times.colour_change
@@ -112,6 +116,15 @@ class _Run:
         )
         if end == self.time:
             self.advance(end)
+
+    def stand_aside(self, order: StandAside) -> None:
+        _require_knot(self.plant, order.head, order.row, order.column)
+        head = self.heads[order.head]
+        if head.order is not None or self.condition.work is not None:
+            raise _busy(f"head {order.head}")
+        if head.condition.closed:
+            raise _closed(order.head)
+        self.report(Done(order, self.time))
 
     def end_knot(self, index: int, head: PlantHead, order: Tie) -> None:
         condition, left, fault = head.condition, head.left, head.fault
@@ -218,12 +231,12 @@ class _Run:
         self.report(SensorsChanged(sensors_of(self.plant, self.state()), self.time))
 
 
-def _require_knot(plant: PlantModel, order: Tie) -> None:
+def _require_knot(plant: PlantModel, head: int, row: int, column: int, tube: int = 0) -> None:
     setup = plant.setup
-    inside = 0 <= order.row < setup.rows and 0 <= order.column < setup.columns
-    if not inside or not 0 <= order.head < setup.heads or not 0 <= order.tube < setup.tubes:
+    inside = 0 <= row < setup.rows and 0 <= column < setup.columns
+    if not inside or not 0 <= head < setup.heads or not 0 <= tube < setup.tubes:
         raise LoomError(
-            f"a knot of row {order.row}, column {order.column}, head {order.head}, tube {order.tube}",
+            f"a knot of row {row}, column {column}, head {head}, tube {tube}",
             allowed=f"{setup.rows} rows, {setup.columns} columns, {setup.heads} heads, {setup.tubes} tubes, from 0",
         )
 
@@ -233,6 +246,10 @@ def _require_end(plant: PlantModel, condition: LoomCondition, order: EndRow) -> 
         raise LoomError(f"the end of row {order.row}", allowed=f"rows 0 to {plant.setup.rows - 1}")
     if condition.between:
         raise LoomError("a head is between the warps", do="bring the heads to their rest first")
+
+
+def _closed(head: int) -> LoomError:
+    return LoomError(f"head {head} moves with its gripper closed on warps", do="open the gripper first")
 
 
 def _busy(axis: str) -> LoomError:

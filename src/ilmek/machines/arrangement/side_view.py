@@ -39,7 +39,7 @@ from ilmek.machines.arrangement.spans import (
 )
 from ilmek.machines.shedding.tree import front_of
 from ilmek.machines.warp_tension.cylinders import spacer_tube
-from ilmek.machines.warp_tension.tree import ARM_PLAY, motor_reach, reach_of
+from ilmek.machines.warp_tension.tree import reach_of, winding_reducer
 from ilmek.machines.weaver.carriage_drive import motor_corner
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
@@ -54,14 +54,10 @@ if TYPE_CHECKING:
 ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
 
-_UNDER_REDUCER, _UNDER_LARGE = 140 * mm, ((150 * mm, 1.05), (math.inf, 1.4))
+_UNDER_REDUCER, _UNDER_LARGE = 140 * mm, 1.05
 """The reducer of the lower cylinder above the floor [m]: a foot of the frame of 80 mm has room there; and over the
-reach of a large one, up to a reach [m], by which more is pulled: the feet are stiffer in proportion, and beside
-wider columns as wide as these; assumed by this project.
+reach of a large one, by which more is pulled: the feet are stiffer in proportion; assumed by this project.
 """
-
-_UNDER_MOTOR = 160 * mm
-"""The motor of the spacer above the floor [m]: a foot of the frame of 100 mm has room there."""
 
 ABOVE_CYLINDER = 50 * mm
 """The frame's columns above the upper cylinder [m]."""
@@ -69,7 +65,7 @@ ABOVE_CYLINDER = 50 * mm
 _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
 
-_COLUMN_ROOM = ((150 * mm, 150 * mm), (math.inf, 320 * mm))
+_COLUMN_ROOM = ((100 * mm, 150 * mm), (math.inf, 220 * mm))
 """Half of the width of a cylinder's reducer, at most, and least room of the columns beside it [m]: looms with larger
 reducers have wider columns; assumed by this project.
 """
@@ -160,8 +156,7 @@ class SideView:
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
     compensator   of the warps' tension, between back rest and upper cylinder
     pile          legs of the knots in front of the warps [m]      heads  None where weavers tie
-    reducer       what a cylinder's reducer takes across its shaft, to the columns and down [m]
-    motor_reach         from the axis of the spacer to the end of its motor [m]
+    reducer       half of the width of a cylinder's reducer, across its shaft [m]
     """
 
     room: ShedRoom
@@ -177,7 +172,6 @@ class SideView:
     roll: float
     pile: float
     reducer: float
-    motor_reach: float
     heads: HeadsView | None = group()
 
     front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
@@ -248,10 +242,8 @@ class SideView:
     @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
-        share = next(share for reach, share in _UNDER_LARGE if self.reducer <= reach)
-        under = self.reducer + max(_UNDER_REDUCER, share * self.reducer)
-        motor = self.spacer.at.imag - self.motor_reach - _UNDER_MOTOR
-        return min(self.lower.at.imag - max(self.roll + ABOVE_FLOOR, under), motor)
+        under = self.reducer + max(_UNDER_REDUCER, _UNDER_LARGE * self.reducer)
+        return self.lower.at.imag - max(self.roll + ABOVE_FLOOR, under)
 
     @property
     def top(self) -> float:
@@ -279,12 +271,11 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     lower = _out_of_reach(heads, lower, roll + room.clearance) if heads else lower
     # A wider spacer leaves the columns their room; the warps count as shorter by that, which stretches them more.
     behind, rest = cylinder_offset(room) + spacer.radius - radius, complex(-room.back_rest, spans.back_rest)
-    reducer = reach_of(cylinder) if cylinder else 0.0
-    arms = 2 * (cylinder.worm().arm - ARM_PLAY) if cylinder and not cylinder.params.by_hand else 0.0
+    reducer = reach_of(winding_reducer(cylinder)) if cylinder else 0.0
     sides = (max(min(own, _HALF_HOUSING), reducer) for own in (radius, lower.radius))
     columns = next(wide for reach, wide in _COLUMN_ROOM if reducer <= reach)
     front = min(lower.at.real, spacer.at.real)
-    behind = max(behind, max(columns + sum(sides), arms) - front + rest.real)
+    behind = max(behind, columns + sum(sides) - front + rest.real)
     return SideView(
         room=room,
         spans=spans,
@@ -310,7 +301,6 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         roll=roll,
         pile=head.drawn / 2 if head else pile_leg(task),
         reducer=reducer,
-        motor_reach=motor_reach(cylinder) if cylinder else 0.0,
         heads=heads,
     )
 
@@ -384,8 +374,8 @@ def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundP
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
     spacer, lower = under_the_fell(radius, wide, roll)
-    if made and made.params.by_hand:  # their reducers, of one size, stand over each other
-        under = spacer.at.imag - 2 * reach_of(made)
+    if made:  # their reducers, of one size, stand over each other
+        under = spacer.at.imag - 2 * reach_of(winding_reducer(made))
         lower = RoundPart(complex(lower.at.real, min(lower.at.imag, under)), radius)
     return spacer, lower, roll
 

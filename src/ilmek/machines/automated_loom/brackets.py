@@ -34,7 +34,7 @@ from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import bearing_inner, reducer
 from ilmek.machines.warp_tension.cylinders import cylinders
-from ilmek.machines.warp_tension.tree import flanged
+from ilmek.machines.warp_tension.tree import winding_reducer
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.profile import Profile
@@ -164,7 +164,7 @@ def brackets_of(loom: LoomDesign) -> Brackets:
     beam = _beam(loom, pull)
     rest = _beside_the_back_rest(loom, beam)
     seats = [(spacer.name, side.spacer.at, spacer), (lower.name, side.lower.at, lower)]
-    most, flange = abs(side.spacer.at - side.lower.at) / 2 - ROOM / 2, flanged(loom.warp_tension)
+    most, flange = abs(side.spacer.at - side.lower.at) / 2 - ROOM / 2, winding_reducer(loom.warp_tension)
     shafts = [
         _of_seat(
             *(loom, f"{name}-bracket", f"bracket of the {name} cylinder", far, flange),
@@ -215,7 +215,7 @@ def _upper(
     loads += [(force, abs(one.axis.real - column), BRACKET / 2) for one in carried]
     moment = sum(load * lever for load, lever, _ in loads), sum(load * aside for load, _, aside in loads)
     sides = max([section.side, *(one.section.side for one in carried)]) / math.sqrt(2)
-    flange = _screwed(flanged(loom.warp_tension))
+    flange = catalogue.screwed_radius(winding_reducer(loom.warp_tension))
     ends = _crossed(nodes, column)
     return Bracket(
         "upper-bracket",
@@ -260,24 +260,23 @@ def _of_seat(  # noqa: PLR0917
     name: str,
     title: str,
     far: float,
-    driven: Part | None,
+    driven: Part,
     carried: tuple[complex, BearingSeat, float],
     most: float = math.inf,
     shift: ComplexArray | None = None,
 ) -> Bracket:
     """The bracket of a bearing; of one that slides by shifts [m] with a slot.
 
-    far  of the bearing's inner side from the middle [m]      driven  reducer that is screwed to it
+    far  of the bearing's inner side from the middle [m]      driven  reducer on it
     carried  axis, seat and force      most  radius [m]
     """
     at, seat, force = carried
     moved = at + (np.zeros(1, complex) if shift is None else shift)
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
     ends, half = (float(moved.imag.min()), float(moved.imag.max())), seat.side / 2
-    flange = _screwed(driven)
+    flange = catalogue.screwed_radius(driven)
     radius = min(_radius(loom, moment, ends, max(seat.radius, flange)), max(most, half, flange))
-    # Square at its end: a round one would reach farther to what lays the weft.
-    if shift is not None and driven is not None:
+    if shift is not None:  # square at its end: a round one would reach farther to what lays the weft
         ends, radius = (ends[0] - radius + _CORNER, ends[1] + radius - _CORNER), _CORNER
         moved_ends, beyond = at.real + 1j * np.array(ends), seat.half_width(driven) - _CORNER
     else:
@@ -291,11 +290,6 @@ def _of_seat(  # noqa: PLR0917
     if np.ptp(moved.real) > um:  # no straight slot
         bores, opening = (rounded_hull(moved, seat.bore / 2), *bores), None
     return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, root, force, moment)
-
-
-def _screwed(driven: Part | None) -> float:
-    """Radius about a shaft that a bracket needs for the screws of a reducer on it, if any [m]."""
-    return catalogue.screwed_radius(driven) if driven else 0.0
 
 
 def screw_bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:

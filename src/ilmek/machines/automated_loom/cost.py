@@ -28,7 +28,7 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
     margins = 2 * (POST + rates.aisle)
     return CarpetCost(
         rates=rates,
-        knots=loom.rows * loom.columns,
+        knots=params.knots,
         area=params.width * params.length,
         time=time,
         energy=energy,
@@ -44,7 +44,7 @@ def standstill_of(loom: LoomDesign) -> float:
 
     A weaver ties on where a pile yarn breaks.
     """
-    knots = loom.rows * loom.columns if loom.heads else 0
+    knots = loom.params.knots if loom.heads else 0
     return expected_standstill(StopParams(), Exposure(knots, knots * loom.params.billed, loom.rows, loom.columns))
 
 

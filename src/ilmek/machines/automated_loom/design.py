@@ -335,9 +335,9 @@ def times_at(params: AutomatedLoomParams, knotting: KnottingHead, knot_pitch: fl
     return Times(head.cycle + late, head.colour_change, travel_time(knot_pitch, head.carriage_window, carriage), weft)
 
 
-def with_changes(times: Times, changes: float) -> Times:
-    """The times with the mean of the colour changes, `changes` a knot, in the knot's."""
-    return replace(times, knot=times.knot + changes * times.colour_change)
+def of_mean_cell(times: Times, params: AutomatedLoomParams) -> Times:
+    """The times with that of a mean cell as the knot's: a knot with its colour changes, where there is one."""
+    return replace(times, knot=params.knotted_share * (times.knot + params.changes_per_knot * times.colour_change))
 
 
 def knotters(params: AutomatedLoomParams, most: int, knotting: KnottingHead) -> int:

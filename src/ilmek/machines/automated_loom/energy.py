@@ -36,7 +36,7 @@ class Energy:
 
 def energy_of(loom: LoomDesign, axes: int) -> Energy:
     """The energy of weaving the loom's carpet at the estimated weaving time, with a number of driven axes."""
-    params, knots = loom.params, loom.rows * loom.columns
+    params, knots = loom.params, loom.params.knots
     acts = {
         "knot": knots,
         "colour change": knots * params.changes_per_knot,

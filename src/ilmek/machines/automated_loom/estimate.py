@@ -1,9 +1,9 @@
 """How long a loom weaves, estimated before there is a chart, and its programme once there is one.
 
-    estimate = rows * ( wefts + (n_first + n_second) * (t_knot + c t_change) ) + stops
+    estimate = rows * ( wefts + (n_first + n_second) * k (t_knot + c t_change) ) + stops
 
-n knots of the widest part in each half of a row, c colour changes a knot; stops to change bobbins of weft. Waiting for
-the slower of two heads is not in the estimate; a programme has it.
+n cells of the widest part in each half of a row, k the share of cells with a knot, c colour changes a knot; stops to
+change bobbins of weft. Waiting for the slower of two heads is not in the estimate; a programme has it.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.loom.bobbins import stop_time
-from ilmek.machines.automated_loom.design import LoomDesign, times_at, with_changes
+from ilmek.machines.automated_loom.design import LoomDesign, of_mean_cell, times_at
 from ilmek.records import computed, record, result
 
 
@@ -24,7 +24,7 @@ def estimated_time(loom: LoomDesign, number: int | None = None, weft: float | No
     """Weaving time [s] without a chart, for the loom's heads or weavers or another number, wefts and beats or their
     time [s].
     """
-    busy = with_changes(replace(loom.times, weft=weft or loom.times.weft), loom.params.changes_per_knot)
+    busy = of_mean_cell(replace(loom.times, weft=weft or loom.times.weft), loom.params)
     return loom.head.least_time(loom.rows, loom.columns, number or loom.knotters, busy, loom.bobbins)
 
 
@@ -40,7 +40,7 @@ def estimated_times_at(loom: LoomDesign, pitch: float, numbers: Sequence[int]) -
     size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
     own = times_at(loom.params, loom.head, 2 * pitch, loom.times.weft)
-    times, stops = with_changes(own, loom.params.changes_per_knot), stop_time(loom.bobbins, loom.rows)
+    times, stops = of_mean_cell(own, loom.params), stop_time(loom.bobbins, loom.rows)
     return np.array([loom.head.least_time(rows, columns, number, times) + stops for number in numbers])
 
 
@@ -82,5 +82,5 @@ def time_shares(loom: LoomDesign) -> TimeShares:
     change = changes * times.colour_change
     tying = 1 - wefts - stops
     knotting = tying * times.knot / (times.knot + change)
-    busy = loom.rows * loom.columns * (times.knot + change) / loom.knotters
+    busy = loom.params.knots * (times.knot + change) / loom.knotters
     return TimeShares(knotting, tying - knotting, wefts, stops, busy / total)

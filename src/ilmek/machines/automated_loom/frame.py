@@ -127,8 +127,7 @@ class FrameTask:
     pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
     carried         mass on the columns [kg]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
-    room, across    for the side of a column, for all columns of a side beside each other [m]
-    rail            of the heads; None: there is none
+    room            for the side of a column [m]               rail    of the heads; None: there is none
     """
 
     height: float
@@ -140,7 +139,6 @@ class FrameTask:
     buckling_safety: float
     bow_limit: float
     room: float = math.inf
-    across: float = math.inf
     rail: RailTask | None = None
 
     @property
@@ -210,12 +208,7 @@ def frame_for(
     """
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
-    columns = [
-        (number, section)
-        for number in range(1, MOST_COLUMNS + 1)
-        for section in narrow
-        if number == 1 or number * section.side <= task.across
-    ]
+    columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
     rail, of_rail = (None, ()) if task.rail is None else rail_for(task.rail)
 
     def framed(column: _Columns, *choices: Choice) -> LoomFrame:

@@ -43,10 +43,10 @@ from ilmek.machines.automated_loom.design import (
     ReadyLoom,
     arms_for,
     knotters,
+    of_mean_cell,
     ready_loom,
     times_at,
     with_beat,
-    with_changes,
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
@@ -244,7 +244,7 @@ def bare_rest(offer: LoomOffer, loom: LoomDesign) -> LoomRest:
     """The rest of a loom that is not designed whole: its frame without equipment, on no floor."""
     params, none = loom.params, MachineCost(0.0)
     dressing, area = float(params.dressing.dressing_time), params.width * params.length
-    rates, knots = rates_of(loom, loom.weavers), loom.rows * loom.columns
+    rates, knots = rates_of(loom, loom.weavers), params.knots
     cost = CarpetCost(rates, knots, area, 1.0, 0.0, dressing, 0.0, none, standstill_of(loom))
     return LoomRest(offer, frame_cost(loom), none, none, none, cost)
 
@@ -350,4 +350,4 @@ def _least_times(ready: ReadyLoom, option: BeatOption, cycle: float) -> Times:
     head, params, task = ready.head.weaver, ready.params, ready.task
     times = times_at(params, ready.head, task.cloth.knot_pitch, option.period)
     tied = replace(times, knot=cycle * (head.cycle / head.params.cycle if head else 1))
-    return with_changes(tied, params.changes_per_knot)
+    return of_mean_cell(tied, params)

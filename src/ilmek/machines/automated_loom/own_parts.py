@@ -27,7 +27,6 @@ from ilmek.machines.automated_loom.rail_supports import (
 )
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
-from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
@@ -95,9 +94,9 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     brake = catalogue.holding_brake(
         RETREAT_BRAKE, "brake of the rail's retreat", motor, -mass * GRAVITY * RETREAT.imag * PULLEY
     )
-    aside, above = _aside(catalogue.face_of(motor)), _motors_above(loom, held[0], motor)
+    aside = _aside(catalogue.face_of(motor))
     low = heads.stroke + room
-    if not above:
+    if not loom.beat.crank_rockers:
         low = _before_posts(loom, frame, held[0], (motor, brake), low)
     axis = bought_part(
         part_id("retreat-axis"),
@@ -117,7 +116,8 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         for own in held
         for x in own.stations
     ]
-    flange = upper if above else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
+    # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
+    flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     ends = zip(stations[: len(held[0].stations)], (placement(aside), placement(-aside)), strict=True)
     adapters, flanges = _adapted(motor, tuple(end.after(out).after(flange) for end, out in ends))
     parts = (
@@ -126,16 +126,6 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         *(Occurrence(part, flanges) for part in (motor, brake)),
     )
     return RigidBody(part_id("retreat"), parts)
-
-
-def _motors_above(loom: LoomDesign, held: RailSupport, motor: Part) -> bool:
-    """Whether the motors are at the upper ends of the axes, above the posts: not where posts of vertical axes stand
-    behind the rail, nor where the worm reducer of the spacer reaches into them.
-    """
-    row = loom.warp_tension.worm(max(own.bearing.bore for own in cylinders(loom.warp_tension)))
-    below = (loom.side.spacer.at + complex(row.top, row.half) - held.axis) / (-1j * RETREAT)
-    free = loom.warp_tension.params.by_hand or below.real >= catalogue.face_of(motor) / 2
-    return loom.beat.crank_rockers > 0 and free
 
 
 def _adapted(motor: Part, ends: tuple[Placement, ...]) -> tuple[tuple[Occurrence, ...], tuple[Placement, ...]]:

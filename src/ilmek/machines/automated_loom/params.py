@@ -114,6 +114,9 @@ class AutomatedLoomParams(Params):
     changes_per_knot: float = param(
         0.06, at_least=0.0, at_most=1.0, doc="colour changes a knot, to estimate the time before there is a chart"
     )
+    knotted_share: float = kind.ratio(
+        1.0, above=0.0, at_most=1.0, doc="share of the chart's cells that are knots; 1 without shape and flat weave"
+    )
     tension: float | None = warp_tension_of(None)
     clearance: float = kind.length(
         2 * mm, at_least=0.0, at_most=0.1, doc="least distance of what moves from all that it must not touch"
@@ -257,6 +260,12 @@ class AutomatedLoomParams(Params):
         """The pile: its height as given, or the usual one of the quality."""
         height = usual_pile_height(self.quality) if self.pile_height is None else self.pile_height
         return PileParams(pile_height=height)
+
+    @property
+    def knots(self) -> int:
+        """Knots of the carpet."""
+        rows, columns = self.knot_grid
+        return round(rows * columns * self.knotted_share)
 
     @property
     def head_tubes(self) -> int:

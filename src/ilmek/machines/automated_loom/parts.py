@@ -20,7 +20,7 @@ from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.shaking import least_frequency
-from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, arms_before, foot_reach
+from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import least_rail
@@ -144,7 +144,6 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
         room=before - behind - 2 * ROOM,
-        across=arms_before(loom),
         rail=_rail_task(loom, loom.side.heads.rail) if loom.side.heads else None,
     )
 

@@ -13,7 +13,7 @@ from ilmek.machines.automated_loom.choice import deadline_check, row_check, weav
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
 from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
-from ilmek.machines.automated_loom.design import LoomDesign, ready_loom, with_beat
+from ilmek.machines.automated_loom.design import LoomDesign, of_mean_cell, ready_loom, with_beat
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_of
@@ -30,7 +30,6 @@ from ilmek.machines.automated_loom.price_tables import parts_table, price_table,
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
 from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch
-from ilmek.machines.automated_loom.standing_frame import arm_checks
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -110,7 +109,7 @@ class LoomAnalysis:
     weavers = computed("1", "weavers who tie beside each other; 0: heads tie", lambda it: it.loom.weavers)
     rows = computed("1", "rows of knots", lambda it: it.loom.rows)
     columns = computed("1", "knots of a row", lambda it: it.loom.columns)
-    knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
+    knots = computed("1", "knots of the carpet", lambda it: it.loom.params.knots)
     warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.warps)
     warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.task.cloth.warp_pitch)
     cloth_clearance = computed(
@@ -199,7 +198,6 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
-        *arm_checks(loom, found.listed.frame),
         *supports(loom, found.listed.frame).checks,
         *(check for rail_support in rail_supports(loom, found.listed.frame) for check in rail_support.checks),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
@@ -257,7 +255,7 @@ def _deadline_check(found: LoomAnalysis, deadline: float) -> Check:
     if not found.loom.weavers:
         return deadline_check(deadline, found.time)
     loom = found.loom
-    needed = weavers_needed(time_for_knots(loom, deadline), loom.times.knot, loom.columns)
+    needed = weavers_needed(time_for_knots(loom, deadline), of_mean_cell(loom.times, loom.params).knot, loom.columns)
     return weavers_deadline_check(deadline, found.time, needed, loom.head.width)
 
 

@@ -19,14 +19,10 @@ from ilmek.machines.automated_loom.frame import END_PLATE, ROOM, LoomFrame, end_
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.machines.shaft_stand import HOLDER, HOLDER_LENGTH, arm_holder
-from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, Cylinder, cylinders
-from ilmek.machines.warp_tension.tree import IN_LOOM
 from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.shapes import Drilling, Prism, box, tube
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
 
 SPINDLE_PLAY = 2 * mm
@@ -62,7 +58,6 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds) -> R
         *_feet(loom, frame, brackets),
         *(own for plate in brackets.plates for own in _bracket(loom, frame, brackets, plate)),
         *_carried(loom, brackets),
-        *_arm_holders(loom, frame, brackets),
         *control_parts(
             brackets.face + frame.column.side,
             loom.side.floor,
@@ -184,52 +179,6 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
         height = sum(one.ends) / 2
         yield _placed(
             spacer, (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face))
-        )
-
-
-def cylinder_positions(loom: LoomDesign) -> dict[str, Placement]:
-    """The axes of the cylinders by their names: z along the width, x up."""
-    side = loom.side
-    axes = {UPPER: side.upper.at, SPACER: side.spacer.at, LOWER: side.lower.at}
-    return {name: placement(0.0, at.imag, at.real).after(ALONG_WIDTH) for name, at in axes.items()}
-
-
-def _eyes(loom: LoomDesign) -> Iterator[tuple[Cylinder, Placement]]:
-    design, axes = loom.warp_tension, cylinder_positions(loom)
-    for own in () if design.params.by_hand else cylinders(design):
-        yield own, axes[own.name].after(IN_LOOM[own.name].eye(design, own))
-
-
-def arms_before(loom: LoomDesign) -> float:
-    """Room of all columns of a side along the width, before the eyes of the torque arms [m]."""
-    eyes = (abs(float(eye.origin[0])) for _, eye in _eyes(loom))
-    return min(eyes, default=math.inf) - HOLDER_LENGTH - brackets_of(loom).face
-
-
-def _arm_eyes(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[tuple[Cylinder, Placement, float]]:
-    """Cylinders with the faces of the eyes of their torque arms, and how far these are before the columns [m]."""
-    face = max(frame.beside(made.face)) + frame.column.side / 2
-    for own, eye in _eyes(loom):
-        yield own, eye, abs(float(eye.origin[0])) - face
-
-
-def _arm_holders(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
-    """What holds the torque arms of the cylinders' reducers, on the outer faces of the columns."""
-    for own, eye, apart in _arm_eyes(loom, frame, made):
-        yield arm_holder(part_id(f"{own.name}-arm-holder"), f"{own.name} cylinder", part_id("column"), eye, apart)
-
-
-def arm_checks(loom: LoomDesign, frame: LoomFrame) -> Iterator[Check]:
-    """Room of what holds the torque arms: before the columns' outer faces, and on them."""
-    half, source = (frame.column.side + HOLDER) / 2, "the maker's torque arm"
-    for own, eye, apart in _arm_eyes(loom, frame, brackets_of(loom)):
-        parts = part_id(f"{own.name}-arm-holder"), part_id("column")
-        title, beside = f"frame: torque arm of the {own.name} cylinder", abs(float(eye.origin[2]) - loom.side.column)
-        yield at_least(f"{title} before the columns", apart, HOLDER_LENGTH, "mm", source).with_cure(
-            "set a lower tension, or a narrower loom, for fewer columns side by side", *parts
-        )
-        yield at_most(f"{title} on its column", beside, half - HOLDER, "mm", source).with_cure(
-            "set a lower tension, or a narrower loom", *parts
         )
 
 

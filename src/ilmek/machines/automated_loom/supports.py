@@ -209,7 +209,7 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     """Section of feet and beams at the floor: the columns', or the largest under the lowest bracket and reducer."""
     lowest = min(float(plate.nodes.imag.min()) - plate.radius for plate in brackets_of(loom).plates)
-    lowest = min(lowest, loom.side.lower.at.imag - loom.side.reducer, loom.side.spacer.at.imag - loom.side.motor_reach)
+    lowest = min(lowest, loom.side.lower.at.imag - loom.side.reducer)
     return within(frame.column, lowest - ROOM - loom.side.floor - FOOT)
 
 

@@ -114,7 +114,7 @@ class HandLoom:
         params, beat, hands = self.params, self.beat, self.params.hands
         wefts = beat.params.passes if isinstance(beat, HandBeat) else WEFTS
         return {
-            "knots": math.ceil(self.columns / self.weavers) * params.hand_knot,
+            "knots": math.ceil(self.columns / self.weavers) * params.knotted_share * params.hand_knot,
             **_of_wefts(params, wefts),
             **(
                 {"blows": beat.beat_time}

@@ -23,7 +23,7 @@ from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.hand_shed import HandShed
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders, spacer_tube
-from ilmek.machines.warp_tension.tree import HANDLE_SIZE, flanged, reach_of
+from ilmek.machines.warp_tension.tree import HANDLE_SIZE, reach_of, winding_reducer
 from ilmek.part import catalogue
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
@@ -138,7 +138,7 @@ def laid_out(
         buckling_safety=safety[1],
         bow_limit=safety[2],
     )
-    column, task = _column(task, reach_of(winding) + ROOM)
+    column, task = _column(task, reach_of(winding_reducer(winding)) + ROOM)
     depth = -radius - task.lever
     axes = {"upper": upper.at, "lower": lower.at, "spacer": spacer.at}
     brackets = tuple(_bracket(winding, own, axes[own.name], column, depth, safety[0]) for own in cylinders(winding))
@@ -165,8 +165,7 @@ def _bracket(  # noqa: PLR0917
     s h² - 6 R o / t² h - 6 R d / t = 0      R force, d its lever off the column, o beside the plate  [beam theory]
     """
     params, seat, lever = design.params, own.seat, abs(at.real - depth)
-    flange = flanged(design)
-    half = max(seat.side / 2 + EDGE, catalogue.screwed_radius(flange) if flange else 0.0)
+    half = max(seat.side / 2 + EDGE, catalogue.screwed_radius(winding_reducer(design)))
     moment = own.reaction * lever, own.reaction * (seat.bearing.width + BRACKET) / 2
     high = max(least_height(moment, STEEL.strength / safety), 2 * half)
     back, front = depth - column.side / 2, at.real + half

@@ -80,10 +80,12 @@ class HandLoomAnalysis:
     weavers = computed("1", "weavers who tie beside each other", lambda it: it.loom.weavers)
     rows = computed("1", "rows of knots", lambda it: it.loom.rows)
     columns = computed("1", "knots of a row", lambda it: it.loom.columns)
-    knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
+    knots = computed("1", "knots of the carpet", lambda it: it.loom.params.knots)
     warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.params.cloth.warps)
     knots_per_minute = computed(
-        "1", "of all weavers, wefts included, estimated", lambda it: 60 * it.loom.columns / it.loom.row_time
+        "1",
+        "of all weavers, wefts included, estimated",
+        lambda it: 60 * it.loom.columns * it.loom.params.knotted_share / it.loom.row_time,
     )
     driven_axes = computed("1", "axes that motors drive", lambda it: drive_balance(tree(it.loom)).axes)
     moved_by_hand = computed("", "bodies that hands move", lambda it: list(dict.fromkeys(it.balance.by_hand)))
@@ -195,7 +197,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
     energy = energy_of_works(params, drive.work, int(machine.axes), acts, time, area) if drive else None
     whole = CarpetCost(
         rates=rates if drive else replace(rates, commissioning=0.0),
-        knots=loom.rows * loom.columns,
+        knots=params.knots,
         area=area,
         time=time,
         energy=float(energy.total) if energy else 0.0,
@@ -290,8 +292,8 @@ def tipping(loom: HandLoom, lines: tuple[BillLine, ...]) -> float:
 
 def _deadline(loom: HandLoom, deadline: float) -> Check:
     """The deadline [s]; what of a row is not knots takes as long with more weavers, but for blows of combs."""
-    acts = loom.row_acts
-    needed = weavers_needed(deadline / loom.rows - (loom.row_time - acts["knots"]), loom.params.hand_knot, loom.columns)
+    left = deadline / loom.rows - (loom.row_time - loom.row_acts["knots"])
+    needed = weavers_needed(left, loom.params.knotted_share * loom.params.hand_knot, loom.columns)
     return weavers_deadline_check(deadline, loom.rows * loom.row_time, needed, ELBOW_ROOM)
 
 

@@ -262,7 +262,7 @@ def _cylinder(  # noqa: PLR0917
     load = bare - 1j * weight
     size, inertia = abs(load), float(uniform.tube_inertia(outer, inner))
     bent = (params.span, params.modulus, inertia)
-    reaction = float(uniform.reaction(size, params.span)) + drive_load(design, torque)
+    reaction = float(uniform.reaction(size, params.span))
     slope = float(uniform.slope_max(size, *bent))
     bearing = bearing_for(params, reaction, torque, slope)
     lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
@@ -288,17 +288,6 @@ def _cylinder(  # noqa: PLR0917
         static_safety=bearing.static / static_load(bearing, reaction),
         end=shaft_end(params, reaction, torque, bearing.bore),
     )
-
-
-def drive_load(design: WarpTensionDesign, torque: float) -> float:
-    """What a worm reducer and the force of its torque arm add to the bearing beside it, at most [N]; its middle is not
-    farther beyond the bearing than the hollow shaft is long.
-    """
-    if design.params.by_hand:
-        return 0.0
-    row = design.worm()
-    mass = row.mass + (design.motor.mass if design.motor else 0.0)
-    return (torque / row.arm + mass * GRAVITY) * (1 + row.length / design.params.span)
 
 
 def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope: float) -> RollingBearing:

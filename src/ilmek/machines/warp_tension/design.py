@@ -18,8 +18,7 @@ from ilmek.elements import shafts
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import bearings_for
 from ilmek.elements.materials import GRAVITY
-from ilmek.elements.motors import NO_MOTOR, STEPPER, Motor, Reducer, geared_motor, most_torque
-from ilmek.elements.reducers import SINGLE, WormSize, worm_for
+from ilmek.elements.motors import NO_MOTOR, Motor, Reducer, geared_motor, most_torque
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.loads import loads_of
@@ -49,7 +48,7 @@ STEPS = 1000
 TAKE_UP_LAW = LAWS["3-4-5"]
 """Motion of the cylinder for a row, from rest to rest; its motor must reach 15/8 of the mean speed."""
 
-RATIOS = (SINGLE, 150.0, 200.0, 300.0, 500.0, 1000.0)
+RATIOS = (100.0, 150.0, 200.0, 300.0, 500.0, 1000.0)
 """The thesis' reducer, and larger ones, a worm behind a first stage, for wide looms."""
 
 
@@ -82,11 +81,6 @@ class WarpTensionDesign:
     reaction = computed("N", "force on each bearing", lambda it: float(uniform.reaction(it.load, it.params.span)))
     force = computed("kN", "pull of all warps", lambda it: it.load * it.params.span)
     self_weight = computed("N/m", "own weight", lambda it: tube_weight(it.params, it.inner_radius, it.outer_radius))
-
-    def worm(self, bore: float = 0.0) -> WormSize:
-        """The size of the worm reducers that motors drive, with a hollow shaft of at least a bore [m]."""
-        given = self.reducer.output_torque(self.motor.torque) if self.motor else 0.0
-        return worm_for(max(given, self.holding_torque), self.ratio, bore)
 
     @computed("kg", "mass of the tube between its bearings")
     def mass(self) -> float:
@@ -221,8 +215,7 @@ def lightest_tube(params: WarpTensionParams, tubes: Iterable[Tube]) -> Tube:
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:
     """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder.
 
-    Where the ratio is free, it is that of a single worm if a stepper turns it, else the least of those with the motor
-    of least power, or that a hand can turn.
+    Where the ratio is free, it is the least of those with the motor of least power, or that a hand can turn.
     """
     ratios = RATIOS if params.ratio is None else (params.ratio,)
     reducers = [Reducer(ratio, params.efficiency) for ratio in ratios]
@@ -231,8 +224,7 @@ def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reduc
         return next(light, reducers[-1]), None, params.hands.crank_speed
     if params.motor_torque is not None:
         return reducers[0], None, reducers[0].ratio * rate
-    single = geared_motor(torque, rate, reducers[:1], STEPPER)
-    motor, reducer = single or geared_motor(torque, rate, reducers) or (None, reducers[-1])
+    motor, reducer = geared_motor(torque, rate, reducers) or (None, reducers[-1])
     return reducer, motor, reducer.ratio * rate
 
 

@@ -58,7 +58,7 @@ class WarpTensionParams(Params):
     )
     hands: WeaverHands = nested(WeaverHands, doc="forces and speeds of the hands, where a hand winds")
     ratio: float | None = kind.ratio(
-        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; default: 100, or more for the least motor"
+        None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; default: of 100 and more that of the least motor"
     )
     efficiency: float = kind.ratio(0.45, at_least=0.01, at_most=1.0, doc="efficiency of the reducer")
     self_locking: bool = kind.flag(True, doc="the reducer must hold the warps by itself; no: a brake holds them")

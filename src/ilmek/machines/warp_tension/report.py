@@ -6,7 +6,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.fillet_welds import STRENGTH
-from ilmek.elements.reducers import reducer_check, worm_check
+from ilmek.elements.reducers import reducer_check
 from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
@@ -43,7 +43,6 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     params, locking = design.params, f"makers ensure it up to {SURE:g}; in theory 2 - 1/efficiency <= 0, {LOCKING:g}"
     worst = f"worst case: {design.loads.worst_case}; own weight included"
     slope, sag = f"{THESIS}, eq. 3.5 and 3.7; {worst}", f"{THESIS}, eq. 3.4; {worst}"
-    title, driven = "reducer of a cylinder", part_id("reducer")
     locks = at_most("efficiency, to lock itself", params.efficiency, SURE, "1", locking).with_cure(
         "set a lower efficiency, or self_locking=no with a brake", part_id("reducer")
     )
@@ -59,9 +58,10 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
         ),
         *((locks,) if params.self_locking else ()),
         _torque_check(design),
-        reducer_check(title, design.reducer, 0.0, design.holding_torque, driven)
-        if params.by_hand
-        else worm_check(title, design.worm(), design.ratio, design.holding_torque, driven),
+        reducer_check(
+            *("reducer of a cylinder", design.reducer, design.motor.torque if design.motor else 0.0),
+            *(design.holding_torque, part_id("reducer")),
+        ),
     )
 
 

@@ -5,18 +5,16 @@ Each cylinder has its own axes: z along it, 0 in the middle of its width, the dr
 
 import cmath
 import math
-from collections.abc import Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
-from ilmek.elements.reducers import REDUCER_FLANGES, WormSize
+from ilmek.elements.reducers import REDUCER_FLANGES
 from ilmek.machines.bearing_seats import TURNED
 from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.warp_tension.attachment import on_cylinder
-from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, STUB, UPPER, Cylinder, cylinders, part_id
+from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.spigot import FLANGE
@@ -26,49 +24,18 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.part.worm_reducer import BEFORE, eye, inlet, journal, motor_in, reducer_position, worm_reducer
 from ilmek.plane.contours import circle
-from ilmek.records import record
 from ilmek.report.scene import SceneMotion
 from ilmek.units import mm, turn
-
-ARM_PLAY = 10 * mm
-"""From the eye of a torque arm to the middle of its column, at most [m]; assumed by this project."""
 
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
 
 
-@record
-class WormMounting:
-    """How the worm reducer of a cylinder hangs on its shaft: direction of its torque arm across the cylinder's axes,
-    x + i y, to the column, where the drive is at +z; flipped  the drive is at -z.
-    """
-
-    arm: complex
-    flipped: bool = False
-
-    def eye(self, design: WarpTensionDesign, cylinder: Cylinder) -> Placement:
-        """Middle of the face of its arm's eye in the cylinder's axes, z out of it."""
-        row, middle = _worm(design, cylinder)
-        return _side(z=0.0, flipped=self.flipped).after(eye(row, middle, self.arm))
-
-
-ON_STAND = WormMounting(-1.0)
-IN_LOOM = {UPPER: WormMounting(1j), SPACER: WormMounting(1j, flipped=True), LOWER: WormMounting(-1j)}
-"""In a loom the cylinders' x is up, their y to the front. Spacer and lower cylinder are too near for both reducers on
-one side; the motor of the lower one stands up, those of the others hang."""
-
-
-def tree(
-    design: WarpTensionDesign,
-    positions: dict[str, Placement] | None = None,
-    mountings: Mapping[str, WormMounting] = MappingProxyType({}),
-) -> Tree:
+def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
     """The bodies of the three cylinders.
 
     positions  of each cylinder's axes by its name; default: one above the other, as on their stand
-    mountings   of their worm reducers; default: as on their stand
     """
     shells, drives = _shells(design), _drives(design)
     where = positions or {
@@ -76,16 +43,10 @@ def tree(
     }
     bodies = (
         body
-        for own, shell in zip(cylinders(design), shells, strict=True)
-        for body in _bodies(design, own, shell, drives[own.name], where[own.name], mountings.get(own.name, ON_STAND))
+        for cylinder, shell in zip(cylinders(design), shells, strict=True)
+        for body in _bodies(design.params, cylinder, shell, drives[cylinder.name], where[cylinder.name])
     )
     return Tree(tuple(bodies))
-
-
-def _worm(design: WarpTensionDesign, cylinder: Cylinder) -> tuple[WormSize, float]:
-    """Size of the worm reducer of a cylinder, and the middle of its hollow shaft along the cylinder [m]."""
-    row = design.worm(max(own.bearing.bore for own in cylinders(design)))
-    return row, design.params.span / 2 + design.params.stub + cylinder.seat.through + BEFORE + row.length / 2
 
 
 def stand(design: WarpTensionDesign) -> Tree:
@@ -95,19 +56,16 @@ def stand(design: WarpTensionDesign) -> Tree:
 
 def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
     """The cylinders, as their stand carries them: with the room of tubes and reducers, or hand wheels."""
-    far, flange = design.params.span / 2 + design.params.stub, flanged(design)
-    wheel = design.params.crank + HANDLE_SIZE if flange else 0.0
-    screws = catalogue.screwed_radius(flange) if flange else 0.0
+    drives, far = _drives(design), design.params.span / 2 + design.params.stub
+    wheel = design.params.crank + HANDLE_SIZE if design.params.by_hand else 0.0
     return tuple(
         CarriedShaft(
             f"{own.name} cylinder",
             own.name,
             own.seat,
             far,
-            max(own.flange, reach_of(design), wheel),
-            screws,
-            0.0 if flange else motor_reach(design),
-            None if flange else ON_STAND.eye(design, own),
+            max(own.flange, reach_of(drives[own.name][0]), wheel),
+            catalogue.screwed_radius(drives[own.name][0]),
         )
         for own in cylinders(design)
     )
@@ -124,13 +82,8 @@ def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:
     )
 
 
-def _bodies(  # noqa: PLR0917
-    design: WarpTensionDesign,
-    cylinder: Cylinder,
-    shell: Part,
-    drive: tuple[Part, ...],
-    position: Placement,
-    mounting: WormMounting,
+def _bodies(
+    params: WarpTensionParams, cylinder: Cylinder, shell: Part, drive: tuple[Part, ...], position: Placement
 ) -> tuple[RigidBody, ...]:
     """A cylinder with its ends, its bearings on the frame's brackets, and its drive: reducer, then what turns it.
 
@@ -138,17 +91,16 @@ def _bodies(  # noqa: PLR0917
     reaches through bearing and bracket; on the driven side it goes on into the reducer, with a key. Where a hand winds,
     the warps turn the spacer.
     """
-    params, name, seat = design.params, cylinder.name, cylinder.seat
-    driven, (row, middle) = not (params.by_hand and name == SPACER), _worm(design, cylinder)
+    name, seat, driven = cylinder.name, cylinder.seat, not (params.by_hand and cylinder.name == SPACER)
     plain = (Occurrence(shell, (placement(z=-params.span / 2),)),)
     shells = plain if name == SPACER else on_cylinder(cylinder, shell, params)
     far, inside = params.span / 2 + params.stub, params.span / 2 - _spigot(cylinder)[1]
-    right, left = (_side(z=inside, flipped=mounting.flipped is own) for own in (True, False))
+    left, right = _side(z=inside, flipped=True), placement(z=inside)
     shape = _end_shape(params, cylinder)
     title = f"shaft end of the {name} cylinder"
     end = replace(_made(f"{name}-end", title, "turned part", shape, STUB), machined=True)  # after it is welded
     ends = (
-        (*_driven_end(design, cylinder, row, right), Occurrence(end, (left,)))
+        (*_driven_end(cylinder, shape, right), Occurrence(end, (left,)))
         if driven
         else (Occurrence(end, (left, right)),)
     )
@@ -166,14 +118,7 @@ def _bodies(  # noqa: PLR0917
     )
     if not driven:
         return bodies
-    if params.by_hand:
-        carried = _on_bracket(params, drive, far + seat.through)
-    else:
-        motor = design.motor
-        lies = reducer_position(row, inlet(row, design.ratio, motor), middle, mounting.arm)
-        geared = _side(z=0.0, flipped=mounting.flipped).after(lies)
-        places = geared, geared.after(motor_in(row, design.ratio, motor))
-        carried = tuple(Occurrence(part, (own,)) for part, own in zip(drive, places, strict=True))
+    carried = _on_bracket(params, drive, far + seat.through)
     return (*bodies, RigidBody(part_id(f"{name} drive"), carried, positions=(position,)))
 
 
@@ -184,10 +129,10 @@ def _turned_by(params: WarpTensionParams, drive: tuple[Part, ...], joint: Joint,
     return replace(joint, hand=drive[-1].id) if params.by_hand else replace(joint, motor=drive[-1].id)
 
 
-def _end_shape(params: WarpTensionParams, cylinder: Cylinder, beyond: float = 0.0) -> Turned:
-    """Spigot, flange and journal of a shaft end, about z from z = 0; beyond  what it is longer [m]."""
+def _end_shape(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
+    """Spigot, flange and journal of a shaft end, about z from z = 0."""
     rim, journal = min(FLANGE, params.stub / 2), cylinder.seat.bearing.bore
-    length = params.stub - rim + cylinder.seat.journal + beyond
+    length = params.stub - rim + cylinder.seat.journal
     steps = _spigot(cylinder), (2 * cylinder.flange, rim), (journal, length)
     return stepped(*(step for step in steps if min(step) > 0))
 
@@ -197,13 +142,9 @@ def _spigot(cylinder: Cylinder) -> tuple[float, float]:
     return cylinder.spigot if cylinder.inner > 0 else (0.0, 0.0)
 
 
-def _driven_end(
-    design: WarpTensionDesign, cylinder: Cylinder, row: WormSize, position: Placement
-) -> tuple[Occurrence, Occurrence]:
-    """The shaft end that goes on into the reducer, and its key, at the end."""
-    name, keyed = cylinder.name, cylinder.driven_end
-    shape = _end_shape(design.params, cylinder, 0.0 if design.params.by_hand else journal(row) - keyed.length)
-    outer = float(np.max(shape.profile.outline.points.real))
+def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple[Occurrence, Occurrence]:
+    """The shaft end that goes on into the reducer, and its key."""
+    name, keyed, outer = cylinder.name, cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
     grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
     title = f"driven shaft end of the {name} cylinder"
     driven = replace(_made(f"{name}-driven-end", title, "turned part", grooved, STUB), machined=True)
@@ -240,54 +181,41 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     return plain, plain, replace(slotted, throat=spacer.throat)
 
 
-def reach_of(design: WarpTensionDesign) -> float:
-    """What a reducer takes across its shaft towards the columns [m]: a worm's housing, or a turned face."""
-    if not design.params.by_hand:
-        return _worm(design, cylinders(design)[0])[0].half
-    return catalogue.face_of(_drives(design)[UPPER][0]) / 2 * (math.cos(TURNED) + math.sin(TURNED))
+def reach_of(reducer: Part) -> float:
+    """Half of the width across the shaft that a turned reducer takes [m]."""
+    return catalogue.face_of(reducer) / 2 * (math.cos(TURNED) + math.sin(TURNED))
 
 
-def flanged(design: WarpTensionDesign) -> Part | None:
-    """The reducer that is screwed to a bracket, where a hand winds; None: worm reducers hang on their shafts."""
-    return _drives(design)[UPPER][0] if design.params.by_hand else None
-
-
-def motor_reach(design: WarpTensionDesign) -> float:
-    """From the axis of a cylinder to the end of its reducer, or of the motor in line with it, across the shaft [m]."""
-    row, length = (
-        _worm(design, cylinders(design)[0])[0],
-        design.motor.length if design.motor else 2 * catalogue.SPECIAL_FACE,
-    )
-    return inlet(row, design.ratio, design.motor) + (0.0 if row.first(design.ratio) else length)
+def winding_reducer(design: WarpTensionDesign) -> Part:
+    """The reducer of the upper cylinder; those of the others are alike but for their bores."""
+    return _drives(design)[UPPER][0]
 
 
 def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
     """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle.
 
-    The reducers are alike but for the bores of their hollow shafts: where a motor winds, worms that hang on them; where
-    a hand winds, of a class whose screws keep off the seats'.
+    The reducers are alike but for the bores of their hollow shafts, of a class whose screws keep off the seats'.
     """
     own = cylinders(design)
     ends = {cylinder.name: cylinder.driven_end for cylinder in own}
     longest = {end.diameter: end for end in sorted(ends.values(), key=lambda end: end.length)}
     thickest = ends[UPPER].diameter
-    names = {bore: part_id("reducer" if bore == thickest else f"reducer-{bore / mm:g}") for bore in longest}
-    title, row = "reducer of a cylinder", _worm(design, own[0])[0]
 
     def reducers(least: float) -> dict[float, Part]:
-        drive = title, design.reducer, design.motor
-        return {bore: catalogue.reducer(names[bore], *drive, end, least=least) for bore, end in longest.items()}
+        names = {bore: "reducer" if bore == thickest else f"reducer-{bore / mm:g}" for bore in longest}
+        drive = "reducer of a cylinder", design.reducer, design.motor
+        return {
+            bore: catalogue.reducer(part_id(names[bore]), *drive, end, least=least) for bore, end in longest.items()
+        }
 
+    classes = map(reducers, (0.0, *(row.face for row in REDUCER_FLANGES)))
+    clear = (
+        parts for parts in classes if all(one.seat.is_clear(parts[one.driven_end.diameter], TURNED) for one in own)
+    )
+    geared = next(clear, None) or reducers(0.0)
     if design.params.by_hand:
-        classes = map(reducers, (0.0, *(row.face for row in REDUCER_FLANGES)))
-        clear = (
-            parts for parts in classes if all(one.seat.is_clear(parts[one.driven_end.diameter], TURNED) for one in own)
-        )
-        geared = next(clear, None) or reducers(0.0)
         last: tuple[Part, ...] = _crank(design.params, catalogue.face_of(geared[thickest]))
     else:
-        drive = title, design.reducer, row, design.motor
-        geared = {bore: worm_reducer(names[bore], *drive, end) for bore, end in longest.items()}
         torque, speed = design.motor_torque, design.motor_speed
         last = (catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed),)
     return {name: (geared[end.diameter], *last) for name, end in ends.items()}

@@ -140,7 +140,7 @@ def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:
     two = weaver.magazine.tiers > 1
     for number, (name, title) in enumerate(colours[: 2 if two else 1]):
         shaft = None if two else (catalogue.motor_shaft(chosen.stepper), AXLE)
-        part = catalogue.motor(name, title, chosen.stepper, chosen.torque, chosen.speed, shaft=shaft)
+        part = catalogue.motor(name, title, chosen.stepper, chosen.torque, chosen.speed, shaft=shaft, standing=True)
         x = (2 * number - 1) * chosen.face / 2 if two else 0.0
         yield Occurrence(part, (_upright(x, flange, under.real),))
 

@@ -47,9 +47,9 @@ SHAFT_STEEL = MATERIALS["bearing steel"]
 BEFORE = 2.5 * mm
 """From the handler's arm to the opener's points [m]; assumed by this project, as all sizes here."""
 
-TEETH, FACE, BACK, BACKLASH, STUB = 12, 5 * mm, 3 * mm, 0.1 * mm, 0.6
-"""Of the pinion; width of its teeth, the rack's back from its pitch line, play of the teeth [m], and addendum of the
-rack [modules], below which a pinion of few teeth is not undercut."""
+TEETH, SHIFT, FACE, BACK, BACKLASH, STUB = 15, 0.125, 5 * mm, 3 * mm, 0.1 * mm, 0.6
+"""Of the pinion, and its profile shift [modules], above which a hob does not undercut it; its width, the rack's
+back from the pitch circle, play of the teeth [m], and addendum of the rack [modules]."""
 
 BESIDE = 1.5 * mm
 """Of the rack's back at the right of its follower [m]."""
@@ -100,7 +100,7 @@ def follower_top(weaver: Weaver) -> float:
 
 
 def _gear(weaver: Weaver) -> Gear:
-    return Gear(2 * weaver.params.pinion / TEETH, TEETH)
+    return Gear(2 * weaver.params.pinion / TEETH, TEETH, SHIFT)
 
 
 def wheel_at(weaver: Weaver) -> float:
@@ -113,7 +113,8 @@ def rack(weaver: Weaver) -> Part:
     gear, teeth = _gear(weaver), math.ceil(weaver.cam(HANDLER).lift / (math.pi * _gear(weaver).module)) + 3
     pitch, module = math.pi * gear.module, gear.module
     deep, wide = math.tan(math.radians(20.0)) * module, pitch / 4 - BACKLASH / 2
-    corners = [complex(-BACK, teeth * pitch), complex(-BACK, 0.0), complex(-1.25 * module, 0.0)]
+    back = BACK - SHIFT * module
+    corners = [complex(-back, teeth * pitch), complex(-back, 0.0), complex(-1.25 * module, 0.0)]
     for k in range(teeth):
         at = (k + 0.5) * pitch
         root, tip = wide + 1.25 * deep, wide - STUB * deep
@@ -125,7 +126,8 @@ def rack(weaver: Weaver) -> Part:
         ]
     corners.append(complex(-1.25 * module, teeth * pitch))
     shape = Prism(Profile(polygon(np.array(corners))), FACE)
-    note = Sentence("sheet.rack", **_tooth_data(gear, teeth), pitch=in_mm(pitch), tip=in_mm(STUB * module))
+    sizes = {"pitch": in_mm(pitch), "tip": in_mm(STUB * module), "back": in_mm(back)}
+    note = Sentence("sheet.rack", **_tooth_data(gear, teeth), **sizes)
     return Part(RACK, "rack of the pile handler", "machined link", shape, STEEL, notes=(note,))
 
 
@@ -145,7 +147,7 @@ QUALITY = "8 ISO 1328-1"
 
 def rack_at(weaver: Weaver, upper: float) -> Placement:
     """Where the rack is while its upper end is at a height [m]: on the side of the follower next to the warps."""
-    line = pivot(weaver).real + weaver.params.pinion
+    line = pivot(weaver).real + weaver.params.pinion + SHIFT * _gear(weaver).module
     return placement(line, upper, wheel_at(weaver), about=(0.0, 0.0, 1.0), angle=turn / 2)
 
 
@@ -164,7 +166,7 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     wheel = Profile(polygon(outline(_gear(weaver))), (circle(0j, outer / 2),))
     gear = _gear(weaver)
     radii = {"tip": in_mm(2 * gear.tip_radius), "root": in_mm(2 * gear.root_radius)}
-    note = Sentence("sheet.gear", **_tooth_data(gear, TEETH), **radii)
+    note = Sentence("sheet.gear", **_tooth_data(gear, TEETH), shift=f"{SHIFT:+g}", **radii)
     pinion = Part(PINION, "pinion of the pile handler", "machined link", Prism(wheel, FACE), STEEL, notes=(note,))
     clutch = Part(
         FREEWHEEL,

@@ -240,7 +240,8 @@ def _door(control: Extent) -> Occurrence:
     wide, high, _ = (control.high - control.low).tolist()
     shape = box(wide, high, WALL)
     bought = Bought(f"door {wide / mm:.0f} x {high / mm:.0f} mm, with lock", shape.volume * STEEL.density)
-    door = bought_part(signals.DOOR, "door of the cabinet", "cabinet door", shape, bought)
+    hung = "its hinges on the wall of the cabinet, of its maker"
+    door = bought_part(signals.DOOR, "door of the cabinet", "cabinet door", shape, bought, fixing=hung)
     x, y, _ = ((control.low + control.high) / 2).tolist()
     return Occurrence(door, (placement(x, y, float(control.low[2]) - WALL),))
 

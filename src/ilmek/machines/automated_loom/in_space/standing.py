@@ -17,12 +17,11 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import needs_of, parts_of_loom
-from ilmek.machines.automated_loom.standing_frame import cylinder_positions
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.slot import over, turned_slot
-from ilmek.machines.warp_tension.tree import IN_LOOM, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
+from ilmek.machines.warp_tension.tree import turning
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
@@ -61,7 +60,8 @@ def _warp_cylinders(loom: LoomDesign) -> Tree:
     taken = sample(track, angle).position
     radii = {name: side.roll if name == LOWER else axis.radius for name, axis in axes.items()}
     motions = {name: motion(row, angle, rotation=taken / radius) for name, radius in radii.items()}
-    return turning(cylinder_tree(loom.warp_tension, cylinder_positions(loom), IN_LOOM), motions)
+    positions = {name: placement(0.0, axis.at.imag, axis.at.real).after(ALONG_WIDTH) for name, axis in axes.items()}
+    return turning(cylinder_tree(loom.warp_tension, positions), motions)
 
 
 def carpet_roll(winding: WarpTensionDesign, lower: RoundPart, roll: float) -> ScenePart:

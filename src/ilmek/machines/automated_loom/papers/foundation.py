@@ -32,7 +32,8 @@ def foundation(tree: Tree) -> Paper:
     datum = min((_plan(piece) for piece in feet), key=lambda spot: spot.real + spot.imag)
     bolts = [piece for piece in pieces if piece.part.purchase and piece.part.purchase.row == ANCHOR.designation]
     held = {roots[piece.body] for piece in (*feet, *bolts)}
-    free = [piece for piece in pieces if piece.box[0][1] < floor + mm and roots[piece.body] not in held]
+    low = (piece for piece in pieces if piece.box[0][1] < floor + mm and not piece.part.fixing)
+    free = [piece for piece in low if roots[piece.body] not in held]
     fixed = sorted((*feet, *bolts, *free), key=lambda piece: (piece.part.id, *_steps(_plan(piece) - datum)))
     heads = (
         Column(Sentence("foundation.number")),
@@ -77,6 +78,8 @@ def _picture(pieces: Sequence[StandingPart], fixed: Sequence[StandingPart], datu
     dots, before = list[Dot](), complex(np.inf)
     for number, piece in enumerate(fixed, 1):
         spot = _plan(piece) - datum
-        dots.append(Dot(spot, str(number) if abs(spot - before) > _NEAR else "", "point"))
+        label = str(number) if abs(spot - before) > _NEAR else ""
+        marked = Sentence("foundation.datum", number=str(number)) if spot == 0 else label
+        dots.append(Dot(spot, marked, "point" if spot else "pivot"))
         before = spot
     return Drawing("foundation", Sentence("foundation.picture"), tuple(strokes), tuple(dots), unit="mm")
