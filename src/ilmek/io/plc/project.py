@@ -54,7 +54,7 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
 
 
 def require_all_knots(setup: LoomSetup) -> None:
-    """Raise LoomError for a carpet with cells without a knot: a PLC counts knots by columns, and leads no head aside."""
+    """Raise LoomError for a carpet with cells without a knot: a PLC counts knots by columns, leads no head aside."""
     if setup.row_knots is not None:
         raise LoomError(
             "a programme with cells without a knot",
