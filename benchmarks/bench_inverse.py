@@ -29,7 +29,7 @@ STATES = 5
 BLOCK = 2048
 PARAMS = TuftingParams()
 PIERCING = AngleRange(PARAMS.entry, PARAMS.exit)
-LOADS = (Gravity(-1j * PARAMS.gravity), Friction("needle", "F", PARAMS.friction_force, "crank", PIERCING, 1.0))
+LOADS = (Gravity(-1j * PARAMS.gravity), Friction("needle.F", PARAMS.friction_force, "crank", PIERCING, 1.0))
 
 
 def by_numpy(motion: Motion) -> FloatArray:
