@@ -654,6 +654,13 @@ CALLS: dict[str, Call] = {
         dict(time_limit=Quantity(1.0, "s"), progress=Other(ilmek.Progress())),
         long=True,
     ),
+    "order": Call(
+        ilmek.order,
+        (Other(ROOT / "examples" / "order.toml", wrong=("no.toml", 3, str(JANSEN))), Other("order", wrong=(3,))),
+        dict(progress=Other(ilmek.Progress())),
+        long=True,
+    ),
+    "verify": Call(ilmek.verify, (Other("no record", wrong=("no.json", 3, str(JANSEN))),), long=True),
     "Chart.of": Call(
         ilmek.Chart.of,
         (

@@ -66,4 +66,5 @@ def verify(
     """
     given = Arguments("a record")
     folder = None if records is None else given.path("records", records)
-    return verify_record(str(record), code=code, records=folder, key=key)
+    named = str(record) if isinstance(record, Path) else given.text("record", record)
+    return verify_record(named, code=code, records=folder, key=key)

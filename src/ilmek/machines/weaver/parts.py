@@ -25,7 +25,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import CUTTER, PITCH, CamMaking, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
+from ilmek.part.shapes import Drilling, Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.sentences import Sentence
@@ -97,21 +97,17 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         bore = 0.0 if row is None or row.outer >= deep else row.outer
         eye = circle(guide_at(weaver) - shape.axis, STEM / 2)
         outline, lip = polygon(rectangle(deep, high).points + middle), max(lip_of(weaver), 0.0) if bore else 0.0
-
-        for side, name in zip((-1, 1), SIDE_PLATES, strict=True):
-            eyes = (eye,) if side < 0 else ()  # the stem of the yarn's guide is in the right one
-            layers = (bore, plate - lip, -side * lip / 2), (bore - LIP_ROOM, lip, side * (plate - lip) / 2)
-            members = tuple(
-                Placed(
-                    Prism(Profile(outline, (*((circle(0j, diameter / 2),) if bore else ()), *eyes)), thick),
-                    (placement(z=z - thick / 2),),
-                )
-                for diameter, thick, z in layers
-                if thick > 0
-            )
+        hole = (circle(0j, (bore - (LIP_ROOM if lip else 0.0)) / 2),) if bore else ()
+        inside = placement(z=plate, about=(1.0, 0.0, 0.0), angle=turn / 2), placement()
+        for side, name, mouth in zip((-1, 1), SIDE_PLATES, inside, strict=True):
+            section = Profile(
+                outline, (*hole, *((eye,) if side < 0 else ()))
+            )  # the yarn guide's stem is in the right one
+            seats = (Drilling(mouth, ((bore, plate - lip),), bore - LIP_ROOM),) if lip else ()
             title = f"{'right' if side < 0 else 'left'} side plate of the head"
-            part = Part(name, title, "machined link", Sum(members), ALUMINIUM, notes=_play_note())
-            yield Occurrence(part, (placement(z=side * (wide - plate) / 2),))
+            shape = Prism(section, plate, seats)
+            part = Part(name, title, "machined link", shape, ALUMINIUM, notes=_play_note())
+            yield Occurrence(part, (placement(z=-wide / 2 if side < 0 else wide / 2 - plate),))
     if row is not None:
         face = wide / 2 - plate - _into_gap(weaver)
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
