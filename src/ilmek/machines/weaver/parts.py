@@ -100,13 +100,11 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         hole = (circle(0j, (bore - (LIP_ROOM if lip else 0.0)) / 2),) if bore else ()
         inside = placement(z=plate, about=(1.0, 0.0, 0.0), angle=turn / 2), placement()
         for side, name, mouth in zip((-1, 1), SIDE_PLATES, inside, strict=True):
-            section = Profile(
-                outline, (*hole, *((eye,) if side < 0 else ()))
-            )  # the yarn guide's stem is in the right one
+            eyes = (eye,) if side < 0 else ()  # the stem of the yarn's guide is in the right one
             seats = (Drilling(mouth, ((bore, plate - lip),), bore - LIP_ROOM),) if lip else ()
             title = f"{'right' if side < 0 else 'left'} side plate of the head"
-            shape = Prism(section, plate, seats)
-            part = Part(name, title, "machined link", shape, ALUMINIUM, notes=_play_note())
+            solid = Prism(Profile(outline, (*hole, *eyes)), plate, seats)
+            part = Part(name, title, "machined link", solid, ALUMINIUM, notes=_play_note())
             yield Occurrence(part, (placement(z=-wide / 2 if side < 0 else wide / 2 - plate),))
     if row is not None:
         face = wide / 2 - plate - _into_gap(weaver)
