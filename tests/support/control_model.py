@@ -32,6 +32,7 @@ from ilmek.loom.control.ports import (
     Order,
     Sensors,
     SensorsChanged,
+    StandAside,
     Tie,
 )
 from ilmek.loom.control.state import ControllerSettings
@@ -294,8 +295,8 @@ class Model:
             disc = Disc(
                 disc.content, len(disc.content), self.meaning(controller, disc), disc.operations + new_ones(disc)
             )
-        homes = tuple(Done(order, 0) for order in outputs.orders if isinstance(order, Home))
-        for order in outputs.orders if not homes else ():
+        moves = tuple(Done(order, 0) for order in outputs.orders if isinstance(order, Home | StandAside))
+        for order in (order for order in outputs.orders if not isinstance(order, Home | StandAside)):
             bit = self.bits[order]
             assert not (world.woven | halted) & bit, f"{order!r} is ordered, and may be in the carpet"
             assert not moving & bit, f"{order!r} is in progress"
@@ -306,8 +307,8 @@ class Model:
         questions = outputs.questions if outputs.halt else (*world.questions, *outputs.questions)
         for cut_off in self.subsets(halted):
             after = World(controller, moving, world.woven | cut_off, disc, questions, world.sensors, world.budget)
-            if homes:  # each axis is at its switch; a crash before that is one in state Resetting
-                yield from self.reacted(after, homes)
+            if moves:  # axes at their switches, heads aside: nothing gets into the carpet by these
+                yield from self.reacted(after, moves)
             else:
                 yield after
 

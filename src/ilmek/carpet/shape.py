@@ -138,7 +138,7 @@ def plain_areas(text: str | None) -> tuple[tuple[int, int, int | None, int | Non
 def pile_kinds(text: str | None) -> dict[str, CellKind]:
     """The kinds of the knots of yarns, by the name of the yarn.
 
-    >>> {name: str(kind) for name, kind in pile_kinds("Red=6mm, Blue=4 mm loop").items()}
+    >>> {name: str(kind) for name, kind in pile_kinds("Red=6 mm, Blue=4 mm loop").items()}
     {'Red': 'pile 6 mm, 6 mm', 'Blue': 'pile 4 mm loop, 4 mm, loop'}
     """
     kinds: dict[str, CellKind] = {}
