@@ -19,6 +19,7 @@ from click.testing import CliRunner
 from processes import PATIENCE, python, start
 
 from ilmek.carpet.calling import CallStep, count_text, row_steps
+from ilmek.carpet.cells import CellKind, CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
@@ -29,10 +30,11 @@ from ilmek.cli.call_screen import colour_depth, screen_lines, swatch
 from ilmek.cli.keys import keys_of
 from ilmek.cli.large_figures import large
 from ilmek.errors import ParameterError
-from ilmek.io.call_state import DamagedStateError, read_state, state_file
+from ilmek.io.call_state import DamagedStateError, chart_digest, read_state, state_file
 from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.png import write_chart_png
 from ilmek.io.output import disk
+from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.call import Calling, begin_calling
 
 KNOTS = np.array([[0, 0, 1, 1, 2], [0, 1, 1, 1, 1], [2, 2, 2, 2, 2]], dtype=np.uint8)
@@ -320,3 +322,16 @@ def test_an_interrupt_keeps_the_step_and_the_terminal(chart_file: Path) -> None:
         assert shown.end() == 130
         assert re.search(rb"step 1 of 2", shown.shown)
     assert begin_calling(CHART, "runs", "right").row == 2
+
+
+def test_what_is_tied_otherwise_has_another_digest() -> None:
+    """Size, density, pile and loops belong to the carpet as knots and colours do."""
+    knots = np.zeros((4, 4), np.uint8)
+    plain = Chart(knots, default_yarns()[:2], "4x4cm", "10x10/dm", "symmetric")
+    larger = Chart(knots, default_yarns()[:2], "8x8cm", "5x5/dm", "symmetric")
+    piles = [
+        replace(plain, cells=CellMap(knots, (kind,)))
+        for kind in (CellKind("a", height=0.006), CellKind("a", loop=True))
+    ]
+    assert len({chart_digest(chart) for chart in (plain, larger, *piles)}) == 4
+    assert chart_digest(plain) == chart_digest(replace(plain, reading=replace(plain.reading, reason="read again")))

@@ -95,7 +95,7 @@ def test_values_are_in_the_units_that_stand_beside_them() -> None:
         ("judge", {"path": "../pyproject.toml"}),
         ("judge", {"path": "/etc/passwd"}),
         ("design", {"name": "../press.toml"}),
-        ("cyclogram", {"name": "/tmp/x.toml"}),
+        ("cyclogram", {"name": "../cyclogram.toml"}),
         ("judge", {}),
         ("judge", {"path": "press.toml", "x": 1}),
         ("nothing", {}),

@@ -17,7 +17,7 @@ from ilmek.carpet.cut_edge import edge_length, finished_area
 from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import carpet_quality
-from ilmek.carpet.shape import SHAPES, ShapeParams, area_of, shaped
+from ilmek.carpet.shape import SHAPES, ShapeParams, shaped
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn_plan import YarnPlanParams
@@ -28,6 +28,20 @@ from ilmek.io.chart.oxs_reading import read_chart_oxs
 from ilmek.io.chart.png import read_chart_png, write_chart_png
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.weave import pile_checks
+
+
+def area_of(shape: str, size: CarpetSize) -> float:
+    """The area of a shape with an equation [m²]."""
+    width, length = size.width, size.length
+    least, whole = min(width, length), width * length
+    cut = {
+        "round": whole * (1 - math.pi / 4),
+        "oval": whole * (1 - math.pi / 4),
+        "octagon": 2 * (least / (2 + math.sqrt(2))) ** 2,
+        "stair": (2 - math.pi / 2) * (least / 2) ** 2,
+        "runner": (4 - math.pi) * (least / 2) ** 2,
+    }
+    return whole - cut[shape]
 
 
 def carpet(width: float, length: float, quality: str = "25x25/dm", yarns: int = 2) -> Chart:

@@ -23,7 +23,6 @@ from scipy import ndimage
 from ilmek.arrays import BoolArray, FloatArray
 from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN_GROUND, CellKind, all_knots
 from ilmek.carpet.chart import Chart, used_first
-from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError, ParameterError, did_you_mean, shortened
 from ilmek.params import Params, kind
 from ilmek.units import counted, parse_quantity
@@ -209,24 +208,6 @@ def _inside(shape: str, chart: Chart) -> BoolArray:
     x = ((np.arange(chart.columns) + 0.5) / chart.columns - 0.5) * size.width
     y = (0.5 - (np.arange(chart.rows) + 0.5) / chart.rows) * size.length
     return SHAPES[shape](x[np.newaxis], y[:, np.newaxis], size.width, size.length)
-
-
-def area_of(shape: str, size: CarpetSize) -> float:
-    """The area of a shape with an equation [m²].
-
-    >>> round(area_of("round", CarpetSize(2.0, 2.0)) / math.pi, 12)
-    1.0
-    """
-    width, length = size.width, size.length
-    least, whole = min(width, length), width * length
-    cut = {
-        "round": whole * (1 - math.pi / 4),
-        "oval": whole * (1 - math.pi / 4),
-        "octagon": 2 * (least / (2 + math.sqrt(2))) ** 2,
-        "stair": (2 - math.pi / 2) * (least / 2) ** 2,
-        "runner": (4 - math.pi) * (least / 2) ** 2,
-    }
-    return whole - cut[shape]
 
 
 def require_wide(inside: BoolArray) -> None:

@@ -42,14 +42,15 @@ class DamagedStateError(Exception):
 
 
 def chart_digest(chart: Chart) -> str:
-    """A name for the knots, their colours and the overlay of a chart: colourways of one design have their own."""
+    """A name for what is tied: knots, overlay, colours, piles, size and density. Colourways have names of their own."""
     colours = [(index, *chart.yarns[index].srgb) for index in chart.used]
-    found = hashlib.sha256(repr((chart.rows, chart.columns, colours)).encode())
-    found.update(np.ascontiguousarray(chart.knots).data)
-    overlay = chart.overlay
-    for array in (overlay.rows, overlay.columns, overlay.kinds, overlay.seconds):
-        found.update(np.ascontiguousarray(array).data)
-    return found.hexdigest()[:32]
+    size, quality = (chart.size.width, chart.size.length), (chart.quality.across, chart.quality.along)
+    kinds = chart.cells and [(kind.weave, kind.height, kind.loop) for kind in chart.cells.kinds]
+    digest = hashlib.sha256(repr((chart.rows, chart.columns, size, quality, colours, kinds)).encode())
+    overlay, cells = chart.overlay, () if chart.cells is None else (chart.cells.index,)
+    for array in (chart.knots, *cells, overlay.rows, overlay.columns, overlay.kinds, overlay.seconds):
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()[:32]
 
 
 def state_file(chart: Chart) -> Path:
