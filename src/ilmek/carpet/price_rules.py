@@ -27,19 +27,13 @@ def cents(amount: float | Decimal) -> Decimal:
 
 @dataclass(frozen=True, slots=True)
 class QuotedPrice:
-    """The price of equal carpets; discount: a share [-]."""
+    """The price of equal carpets, without tax; discount: a share [-]."""
 
     cost: Decimal
     unit: Decimal
     quantity: int
     discount: float
     net: Decimal
-    tax: Decimal
-
-    @property
-    def total(self) -> Decimal:
-        """With tax."""
-        return self.net + self.tax
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +62,21 @@ class PriceRules:
         """The price of equal carpets of a cost each, in an order of so many carpets.
 
         >>> price = PriceRules(0.25, 0.19, ((2, 0.1),)).quoted(100.0, 2, 2)
-        >>> str(price.unit), str(price.net), str(price.tax), str(price.total)
-        ('125.00', '225.00', '42.75', '267.75')
+        >>> str(price.unit), str(price.net)
+        ('125.00', '225.00')
         """
         spent, share = cents(cost), self.discount(carpets)
         unit = cents(spent * (1 + Decimal(repr(self.margin))))
         net = cents(quantity * unit * (1 - Decimal(repr(share))))
-        return QuotedPrice(spent, unit, quantity, share, net, cents(net * Decimal(repr(self.tax))))
+        return QuotedPrice(spent, unit, quantity, share, net)
+
+    def taxed(self, net: Decimal) -> Decimal:
+        """The tax on the net price of an order: of the sum, as who checks it computes it.
+
+        >>> str(PriceRules(tax=0.19).taxed(Decimal("635.55")))
+        '120.75'
+        """
+        return cents(net * Decimal(repr(self.tax)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,7 +68,7 @@ class Offer:
     @property
     def tax(self) -> Decimal:
         """Of all carpets."""
-        return sum((carpet.price.tax for carpet in self.carpets), Decimal(0))
+        return self.rules.taxed(self.net)
 
     @property
     def designs(self) -> list[list[OfferedCarpet]]:

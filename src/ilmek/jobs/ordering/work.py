@@ -202,7 +202,6 @@ def _carpet(done: OrderResult, number: int, planned: JsonObject) -> JsonObject:
         "unit_price": float(price.unit),
         "discount": price.discount,
         "net": float(price.net),
-        "tax": float(price.tax),
         "loom": planned["loom"],
         "due": planned["due"],
         "late": planned["late"],
