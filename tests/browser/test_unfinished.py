@@ -29,7 +29,7 @@ B.pin = ["link1", "link2"]
 C.pin = ["link2", "link3"]
 D.pin = ["ground", "link3"]
 """
-LOAD = '\n[loads]\nforce1 = { force = "100N", direction = "-90deg", on = ["link3", "C"] }\n'
+LOAD = '\n[loads]\nforce1 = { force = "100N", direction = "-90deg", on = "link3.C" }\n'
 FREE = '\n[bodies]\nground = {}\nlink1 = { points = { A = [0, 0], B = ["50mm", "20mm"] } }\n\n[joints]\n'
 PIVOTED = '\n[bodies]\nground = { points = { A = [0, 0] } }\nlink1 = { points = { A = [0, 0], B = ["50mm", 0] } }\n'
 

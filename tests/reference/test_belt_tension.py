@@ -28,7 +28,7 @@ pulley = {{ points = {{ Q = [0, 0] }}, mass = "3kg", moment = "0.05kg*m^2" }}
 O.pin = ["ground", "motor"]
 Q.pin = ["ground", "pulley"]
 [couplings.belt]
-belt = [["motor", "O"], ["pulley", "Q"]]
+belt = ["motor.O", "pulley.Q"]
 ratio = {ratio:.17g}
 first_at = 0
 second_at = 0

@@ -25,7 +25,7 @@ moment = "8kg*m^2"
 [joints]
 O.pin = ["ground", "boom"]
 [cylinders]
-lift.between = [["ground", "F"], ["boom", "E"]]
+lift.between = ["ground.F", "boom.E"]
 """
 
 
@@ -70,9 +70,9 @@ def test_written_cylinders_are_read_without_loss() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"E"]]', '"G"]]', "no point 'G'"),
-        ('["boom"', '["arm"', "of 'arm'"),
-        ('["boom", "E"]', '["ground", "F"]', "one place"),
+        ('.E"]', '.G"]', "no point 'G'"),
+        ('"boom.E', '"arm.E', "of 'arm'"),
+        ('"boom.E"', '"ground.F"', "one place"),
     ],
 )
 def test_cylinders_that_contradict_are_one_error(old: str, new: str, message: str) -> None:

@@ -51,7 +51,7 @@ def cam_file(rng: np.random.Generator, *, rocker: bool, flat: bool = False) -> t
     ground = f"""Q = ["{size["d"]:.17g}m", "-0.03m"]""" if rocker else f"""G = ["{size["e"]:.17g}m", 0]"""
     load = f'torque = "{-size["load"] * 0.1:.17g}N*m", on = "follower"'
     if not rocker:
-        load = f'force = [0, "{size["load"]:.17g}N"], on = ["follower", "G"]'
+        load = f'force = [0, "{size["load"]:.17g}N"], on = "follower.G"'
     roller = "" if flat else f'roller = "{"R" if rocker else "G"}"'
     text = f"""
 inputs = {{ O = "cam" }}
@@ -68,7 +68,7 @@ moment = "0.003kg*m^2"
 O.pin = ["ground", "cam"]
 {joint}
 [couplings.lift]
-cam = [["cam", "O"], ["follower", "{end}"]]
+cam = ["cam.O", "follower.{end}"]
 {roller}
 first_at = "{at}"
 second_at = "{second}"
@@ -155,7 +155,7 @@ def test_cam_with_rocker(seed: int) -> None:
 
 
 def geneva_file(slots: int, centre: complex, at: float, load: float) -> str:
-    wheels = 'geneva = [["crank", "O"], ["wheel", "Q"]]'
+    wheels = 'geneva = ["crank.O", "wheel.Q"]'
     return f"""
 inputs = {{ O = "crank" }}
 motions = {{ O = "3rad/s" }}

@@ -12,7 +12,7 @@ from ilmek.io.mechanism_file import MechanismFile, parse_mechanism
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import MechanismRun, run
 
-LOAD = '[loads]\np = { force = "FORCE", direction = "0deg", on = ["rocker", "C"]TABLE }\n'
+LOAD = '[loads]\np = { force = "FORCE", direction = "0deg", on = "rocker.C"TABLE }\n'
 
 WHEEL = """\
 name = "wheel"

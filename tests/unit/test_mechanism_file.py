@@ -242,7 +242,7 @@ def test_couplings_are_read_with_their_units():
     O = { pin = ["ground", "pinion"] }
     way = { slide = ["rack", "ground"] }
     [couplings]
-    teeth = { rack = [["pinion", "O"], ["rack", "way"]], ratio = "20mm/rad", first_at = "90deg", second_at = "1cm" }
+    teeth = { rack = ["pinion.O", "rack.way"], ratio = "20mm/rad", first_at = "90deg", second_at = "1cm" }
     [inputs]
     O = "pinion"
     """
@@ -250,7 +250,7 @@ def test_couplings_are_read_with_their_units():
     assert coupling == Coupling("teeth", "rack", ("pinion", "O"), ("rack", "way"), 0.02, 1.5707963267948966, 0.01)
     mistakes = {
         '"20mm/rad"': ('"20mm"', "line 10, couplings.teeth.ratio: '20mm' has the wrong unit"),
-        '["rack", "way"]': ('["rack", "O"]', "line 10, couplings.teeth: body 'rack' of mechanism has no point 'O'"),
+        '"rack.way"': ('"rack.O"', "line 10, couplings.teeth: body 'rack' of mechanism has no point 'O'"),
         'second_at = "1cm"': ("second = 1", "line 10, couplings.teeth: has no 'second_at'"),
     }
     for before, (after, said) in mistakes.items():
@@ -271,9 +271,9 @@ def test_wheels_geared_in_a_circle_are_told_with_the_line_of_the_coupling_that_c
     B = { pin = ["ground", "b"] }
     C = { pin = ["ground", "c"] }
     [couplings]
-    ab = { gears = [["a", "A"], ["b", "B"]], ratio = -1, first_at = 0, second_at = 0 }
-    bc = { gears = [["b", "B"], ["c", "C"]], ratio = -1, first_at = 0, second_at = 0 }
-    ca = { gears = [["c", "C"], ["a", "A"]], ratio = -1, first_at = 0, second_at = 0 }
+    ab = { gears = ["a.A", "b.B"], ratio = -1, first_at = 0, second_at = 0 }
+    bc = { gears = ["b.B", "c.C"], ratio = -1, first_at = 0, second_at = 0 }
+    ca = { gears = ["c.C", "a.A"], ratio = -1, first_at = 0, second_at = 0 }
     [inputs]
     A = "a"
     """

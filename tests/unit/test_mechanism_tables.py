@@ -31,7 +31,7 @@ PRESS = """\
 name = "press"
 gravity = "9.81m/s^2"
 servo = "O"
-paths = [["rod", "A"]]
+paths = ["rod.A"]
 transmission = ["B"]
 links = { width = "30mm", thickness = "10mm", material = "structural steel" }
 [values]
@@ -52,14 +52,14 @@ O = "crank"
 [branches]
 B = 1
 [loads]
-pressing = { force = "4kN", direction = "90deg", on = ["ram", "B"], while = { from = "210deg", to = "270deg" } }
-table = { force = [0, "1N"], on = ["ram", "B"], table = [["0deg", 0], ["90deg", "100N"], ["180deg", 0]] }
+pressing = { force = "4kN", direction = "90deg", on = "ram.B", while = { from = "210deg", to = "270deg" } }
+table = { force = [0, "1N"], on = "ram.B", table = [["0deg", 0], ["90deg", "100N"], ["180deg", 0]] }
 t = { torque = "1N*m", on = "rod" }
-f = { friction = "5N", on = ["ram", "B"] }
-d = { drag = "5N*s/m", on = ["ram", "B"] }
-bf = { force = ["3N", 0], on = ["rod", "B"], frame = "body" }
+f = { friction = "5N", on = "ram.B" }
+d = { drag = "5N*s/m", on = "ram.B" }
+bf = { force = ["3N", 0], on = "rod.B", frame = "body" }
 [springs]
-s = { between = [["ground", "S"], ["ram", "B"]], stiffness = "2N/mm", length = "80mm", damping = "3N*s/m" }
+s = { between = ["ground.S", "ram.B"], stiffness = "2N/mm", length = "80mm", damping = "3N*s/m" }
 ts = { torsion = ["ground", "rod"], stiffness = "2N*m/deg" }
 [dampers]
 dd = { torsion = ["crank", "rod"], damping = "0.1N*m*s/rad" }
@@ -176,11 +176,16 @@ MISTAKES = {
         "pressing = { forse",
         "loads.pressing: has none of force, torque, friction, drag",
     ),
-    "unknown body": ('["ram", "B"], while', '["rum", "B"], while', "loads.pressing: press has no body 'rum'"),
+    "unknown body": ('"ram.B", while', '"rum.B", while', "loads.pressing: press has no body 'rum'"),
     "unknown point": (
-        '["ram", "B"], while',
-        '["ram", "Z"], while',
+        '"ram.B", while',
+        '"ram.Z", while',
         "loads.pressing: body 'ram' of press has no point 'Z'",
+    ),
+    "pair of names": (
+        '"ram.B", while',
+        '["ram", "B"], while',
+        "loads.pressing.on: ['ram', 'B'] is not a body and its point; a text like \"rocker.E\"; write \"ram.B\"",
     ),
     "window in mm": ('from = "210deg"', 'from = "210mm"', "loads.pressing: from is a quantity in m; a quantity in rad"),
     "unknown input": (
@@ -258,7 +263,7 @@ MISTAKES = {
         "study.count: 60 is not a whole number from 2",
     ),
     "servo of nothing": ('servo = "O"', 'servo = "A"', "line 3, servo: there is no driven joint or body 'A'"),
-    "path of nothing": ('["rod", "A"]', '["rod", "Z"]', "line 4, paths.0: body 'rod' of press has no point 'Z'"),
+    "path of nothing": ('"rod.A"', '"rod.Z"', "line 4, paths.0: body 'rod' of press has no point 'Z'"),
     "angle of a slide": (
         'transmission = ["B"]',
         'transmission = ["guide"]',
@@ -504,8 +509,8 @@ def test_a_load_over_a_slide_is_within_its_values() -> None:
     [inputs]
     s = "block"
     [loads]
-    stop = { force = ["-5N", 0], on = ["block", "s"], while = { from = "10mm", to = "20mm" } }
-    rise = { force = ["1N", 0], on = ["block", "s"], table = [[0, 0], ["10mm", "2N"]] }
+    stop = { force = ["-5N", 0], on = "block.s", while = { from = "10mm", to = "20mm" } }
+    rise = { force = ["1N", 0], on = "block.s", table = [[0, 0], ["10mm", "2N"]] }
     """
     machine = parse_mechanism(text).machine
     stop, rise = (one.load for one in machine.loads)

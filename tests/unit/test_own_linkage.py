@@ -194,7 +194,7 @@ def test_a_slide_has_a_rail_as_long_as_its_travel_and_a_carriage_on_it() -> None
         'rocker = { length = "90mm", mass = "1kg" }', "ram = { points = { B = [0, 0], C = [0, 0] } }"
     )
     text = text.replace('"rocker"', '"ram"').replace('C.pin = ["ground", "ram"]', 'C = { slide = ["ram", "ground"] }')
-    text = text.replace('{ torque = "20N*m", on = "ram" }', '{ friction = "100N", on = ["ram", "B"] }')
+    text = text.replace('{ torque = "20N*m", on = "ram" }', '{ friction = "100N", on = "ram.B" }')
     mechanism = made(text)
     parts = {part.id: part for part, _ in mechanism.tree.occurrences()}
     (line,) = mechanism.built.lines

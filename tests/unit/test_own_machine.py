@@ -67,7 +67,7 @@ O = "crank"
 [branches]
 B = 1
 [loads]
-cut = { force = "9kN", direction = "90deg", on = ["ram", "tool"], while = { from = "230deg", to = "262deg" } }
+cut = { force = "9kN", direction = "90deg", on = "ram.tool", while = { from = "230deg", to = "262deg" } }
 [friction]
 A = { coefficient = 0.08, radius = "15mm" }
 guide = { coefficient = 0.1, breadth = "120mm" }
@@ -396,7 +396,7 @@ wheel = { points = { Q = [0, 0], T = ["100mm", 0] } }
 O.pin = ["ground", "motor"]
 Q.pin = ["ground", "wheel"]
 [couplings]
-chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1, first_at = 0, second_at = 0 }
+chain = { belt = ["motor.O", "wheel.Q"], ratio = 1, first_at = 0, second_at = 0 }
 [loads]
 work = { torque = "-12N*m", on = "wheel" }
 [pins]
@@ -427,12 +427,10 @@ def test_what_depends_on_the_tension_of_a_chain_is_named_and_all_else_is_compute
 def test_a_rack_presses_on_its_guide_by_its_pressure_angle(angle, press):
     text = BELT.replace('[pins]\nQ = { diameter = "12mm", length = "16mm" }\n', "")
     text = text.replace('Q.pin = ["ground", "wheel"]', 'Q = { slide = ["wheel", "ground"] }')
+    text = text.replace('work = { torque = "-12N*m", on = "wheel" }', 'work = { force = ["-250N", 0], on = "wheel.Q" }')
     text = text.replace(
-        'work = { torque = "-12N*m", on = "wheel" }', 'work = { force = ["-250N", 0], on = ["wheel", "Q"] }'
-    )
-    text = text.replace(
-        'chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1,',
-        "mesh = { " + angle + 'rack = [["motor", "O"], ["wheel", "Q"]], ratio = "20mm/rad",',
+        'chain = { belt = ["motor.O", "wheel.Q"], ratio = 1,',
+        "mesh = { " + angle + 'rack = ["motor.O", "wheel.Q"], ratio = "20mm/rad",',
     )
     forces = analysis(
         run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "", ""))

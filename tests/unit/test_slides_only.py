@@ -42,9 +42,7 @@ X = { slide = ["saddle", "ground"] }
 Y = { slide = ["table", "saddle"], along = "90deg" }
 """
 
-LOADS = (
-    '[loads]\nside = { force = ["100N", "20N"], on = ["car", "P"] }\ndrag = { drag = "5N*s/m", on = ["car", "P"] }\n'
-)
+LOADS = '[loads]\nside = { force = ["100N", "20N"], on = "car.P" }\ndrag = { drag = "5N*s/m", on = "car.P" }\n'
 FRICTION = '[friction]\nS = { coefficient = 0.1, breadth = "100mm", drag = "3N*s/m" }\n'
 STEPS = '[motions.S]\nsteps = [{ to = "80mm", time = "0.3s" }, { dwell = "0.1s" }, { to = 0, time = "0.2s" }]\n'
 SECTION = 'section = { width = "20mm", thickness = "8mm", material = "structural steel" }'

@@ -206,7 +206,7 @@ EVERY = {"ground", "crank", "coupler", "rocker"}
         (("bodies", "crank"), {"points": {"A0": [0, 0], "A": [0, 0]}}, "zero length", EVERY - {"crank"}),
         (("joints", "A"), {"pin": ["crank", "crank"]}, "joins 'crank' to itself", EVERY - {"coupler"}),
         (("bodies", "rocker"), {"length": "1mm"}, "300 to 1", EVERY),
-        (("loads",), {"pull": {"force": "1N", "on": ["crank", "Z"]}}, "loads.pull", EVERY),
+        (("loads",), {"pull": {"force": "1N", "on": "crank.Z"}}, "loads.pull", EVERY),
         (("branches",), {"Q": 1}, "branches", EVERY),
     ],
 )  # fmt: skip
@@ -318,7 +318,7 @@ def test_a_cylinder_of_a_loose_body_is_left_out_with_it() -> None:
         "bodies": {"ground": {"points": {"A": [0, 0]}}, "arm": {"points": {"A": [0, 0]}}, "lid": {}},
         "joints": {"A": {"pin": ["ground", "arm"]}},
         "inputs": {},
-        "cylinders": {"lift": {"between": [["ground", "A"], ["lid", "P"]]}},
+        "cylinders": {"lift": {"between": ["ground.A", "lid.P"]}},
         "branches": {"lid": 1},  # a joint may have the name of a body
     }
     part, loose = joined_part(data)

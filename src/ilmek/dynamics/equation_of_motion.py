@@ -98,19 +98,20 @@ class GeneralEquation:
         loads = (*self.reduced.weights, *self.reduced.steady, *self.reduced.live)
         wrenches = [(load, wrench) for load in loads for wrench in load.wrenches(motion, bodies)]
         acting = [wrench for _, wrench in wrenches if wrench.body != GROUND]
-        drag = {law.joint: -law.drag * _rate(poses, law.joint) for law in self.reduced.frictions if law.drag}
+        rubbing = [law for law in self.reduced.frictions if law.drag]
+        drag = {law.joint: np.full(count + 1, -law.drag * _rate(poses, law.joint)) for law in rubbing}
         needed = loaded(poses, needs(poses, bodies, acting), drag)
         pulls, nothing = joint_pulls(poses, needed), {body: ForceAndMoment(0j, 0.0) for body in bodies}
-        units = [joint_pulls(poses, loaded(poses, nothing, {law.joint: np.ones(count + 1)})) for law in self.laws]
+        each = [joint_pulls(poses, loaded(poses, nothing, {law.joint: np.ones(count + 1)})) for law in self.laws]
         joints, efforts = [poses.joints[law.joint] for law in self.laws], _driven(poses, pulls)
         others = [wrench for load, wrench in wrenches if not isinstance(load, Gravity) and wrench.body != GROUND]
         power = load_power(poses, others) + sum(effort * _rate(poses, name) for name, effort in drag.items())
-        responses = [components(joints, self.laws, unit, count + 1, 0.0)[..., 0] for unit in units]
+        responses = [components(joints, self.laws, unit, count + 1, 0.0)[..., 0] for unit in each]
         return StateTerms(
             poses,
             (efforts[1:] - efforts[0]).T + np.diag(list(self.reduced.wheels.values())),
             efforts[0],
-            np.array([_driven(poses, unit)[0] for unit in units]).reshape(len(self.laws), count).T,
+            np.array([_driven(poses, unit)[0] for unit in each]).reshape(len(self.laws), count).T,
             components(joints, self.laws, pulls, count + 1),
             np.array(responses),
             float(np.broadcast_to(power, count + 1)[0]),

@@ -76,7 +76,7 @@ class PinFriction:
 
     def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
         """The pin force F [N]."""
-        return np.real(pull.force), np.imag(pull.force)
+        return pull.force.real, pull.force.imag
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class ToothSeparation:
 
     def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
         """The force along the pitch line [N]."""
-        return np.real(pull.force), np.imag(pull.force)
+        return pull.force.real, pull.force.imag
 
 
 @dataclass(frozen=True, slots=True)

@@ -150,6 +150,28 @@ class TextEntry(DeclaredEntry):
 
 
 @record
+class SpotEntry(DeclaredEntry):
+    """A point of a body: "body.point", read as both names."""
+
+    def _form(self, _: JsonObject) -> JsonObject:
+        return {"type": "string", "refers": "spot"}
+
+    def read(self, value: Any, reader: EntryReader, path: Path = ()) -> tuple[str, str]:
+        """The names of the body and its point."""
+        body, _, point = value.partition(".") if isinstance(value, str) else ("", "", "")
+        if not (body and point):
+            pair = isinstance(value, list) and len(value) == 2 and all(isinstance(one, str) for one in value)
+            do = f'write "{value[0]}.{value[1]}"' if pair else ""
+            reader.refuse(path, f"{shown(value)} is not a body and its point", 'a text like "rocker.E"', do)
+        return body, point
+
+    def write(self, value: Any, *, si: bool) -> str:
+        """The text."""
+        del si
+        return ".".join(value)
+
+
+@record
 class FlagEntry(DeclaredEntry):
     """True or false."""
 
@@ -200,17 +222,15 @@ class ChoiceEntry(DeclaredEntry):
 
 @record
 class ListEntry(DeclaredEntry):
-    """A list of some entries; `refers`: what its texts are the name of together, like a body and its point."""
+    """A list of some entries."""
 
     items: DeclaredEntry
     least: int
     most: int
-    refers: str = ""
 
     def _form(self, definitions: JsonObject) -> JsonObject:
         items = self.items.schema(definitions)
-        form = {"type": "array", "items": items, "minItems": self.least, "maxItems": self.most}
-        return {**form, **({"refers": self.refers} if self.refers else {})}
+        return {"type": "array", "items": items, "minItems": self.least, "maxItems": self.most}
 
     def read(self, value: Any, reader: EntryReader, path: Path = ()) -> list[Any]:
         """All entries."""

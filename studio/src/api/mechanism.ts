@@ -200,8 +200,10 @@ export interface MechanismFile {
    *
    * @minItems 0
    * @maxItems 50
+   *
+   * Items: a body and its point
    */
-  paths?: [string, string][];
+  paths?: string[];
   /**
    * pins at which the transmission angle is listed; default: every free pin of a dyad
    *
@@ -514,8 +516,10 @@ export interface CouplingGears {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  gears: [[string, string], [string, string]];
+  gears: [string, string];
   /**
    * -z1/z2, the teeth of the first by those of the second; without the sign where one is inside the other
    */
@@ -543,8 +547,10 @@ export interface CouplingBelt {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  belt: [[string, string], [string, string]];
+  belt: [string, string];
   /**
    * r1/r2, the first's radius by the second's; with a minus sign for a crossed belt
    */
@@ -580,8 +586,10 @@ export interface CouplingRack {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  rack: [[string, string], [string, string]];
+  rack: [string, string];
   /**
    * travel per radian of the pinion: its pitch radius, with a sign
    */
@@ -609,8 +617,10 @@ export interface CouplingCam {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  cam: [[string, string], [string, string]];
+  cam: [string, string];
   /**
    * the body that carries both; default: the ground
    */
@@ -685,8 +695,10 @@ export interface CouplingGeneva {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  geneva: [[string, string], [string, string]];
+  geneva: [string, string];
   /**
    * number of slots; the pin's radius is sin(180 degrees / slots) of the centres' distance
    */
@@ -714,8 +726,10 @@ export interface Cylinder {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  between: [[string, string], [string, string]];
+  between: [string, string];
 }
 /**
  * This interface was referenced by `MechanismFile`'s JSON-Schema
@@ -739,12 +753,9 @@ export interface Pose {
 export interface LoadForce {
   force: (number | string) | [number | string, number | string];
   /**
-   * body and point
-   *
-   * @minItems 2
-   * @maxItems 2
+   * a body and its point
    */
-  on: [string, string];
+  on: string;
   /**
    * like "170deg"
    */
@@ -825,11 +836,8 @@ export interface LoadFriction {
   friction: number | string;
   /**
    * a body and its point
-   *
-   * @minItems 2
-   * @maxItems 2
    */
-  on: [string, string];
+  on: string;
   /**
    * input; default: the only input
    */
@@ -854,11 +862,8 @@ export interface LoadDrag {
   drag: number | string;
   /**
    * a body and its point
-   *
-   * @minItems 2
-   * @maxItems 2
    */
-  on: [string, string];
+  on: string;
   while?: Window3;
 }
 /**
@@ -878,8 +883,10 @@ export interface SpringBetween {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  between: [[string, string], [string, string]];
+  between: [string, string];
   stiffness: number | string;
   /**
    * unloaded
@@ -914,8 +921,10 @@ export interface DamperBetween {
    *
    * @minItems 2
    * @maxItems 2
+   *
+   * Items: a body and its point
    */
-  between: [[string, string], [string, string]];
+  between: [string, string];
   damping: number | string;
 }
 export interface DamperTorsion {

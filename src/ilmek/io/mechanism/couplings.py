@@ -119,7 +119,7 @@ def couplings_of(tables: Table, joints: Sequence[Joint], source: SourceText) -> 
 
 def _coupling(name: str, table: Table, sliding: Set[str]) -> Coupling:
     kind = next(kind for kind in KINDS if kind in table)
-    first, second = (tuple(end) for end in table[kind])
+    first, second = table[kind]
     law = law_of_pair(kind, table, slides=second[1] in sliding)
     second_at = table.get("second_at", 0.0)
     if isinstance(second_at, Measured):
@@ -151,7 +151,7 @@ def _spans(table: Table) -> BeltSpans | None:
 
 def coupling_data(coupling: Coupling) -> JsonObject:
     """The table of a coupling. Raises MechanismError for a law that no file can express."""
-    ends: JsonObject = {coupling.kind: [list(end) for end in coupling.ends]}
+    ends: JsonObject = {coupling.kind: coupling.ends}
     table, law = COUPLING.table(ends), coupling.law
     data = {**ends, **table.given(coupling), **table.given(coupling.spans)}
     if law is None or isinstance(law, Geneva):

@@ -10,7 +10,7 @@ from ilmek.dynamics.own_machine import NamedLoad
 from ilmek.errors import MechanismError
 from ilmek.io.declared import ChoiceEntry, ListEntry, TableEntry, TextEntry, keys, quantity, variant
 from ilmek.io.mechanism.motions import table_rows
-from ilmek.io.mechanism.names import ANGLE, input_of, position_of_input, spot, spot_of, unit_of, value_of, xy_of
+from ilmek.io.mechanism.names import ANGLE, SPOT, input_of, position_of_input, spot_of, unit_of, value_of, xy_of
 from ilmek.io.mechanism.points import complex_of, polar
 from ilmek.io.mechanism.springs import spring_of
 from ilmek.io.schema import Measured, SourceText, Table
@@ -47,7 +47,7 @@ def _rows(unit: str, doc: str) -> ListEntry:
 
 LOAD = variant(
     keys(
-        {"force": _FORCE, "on": spot("body and point")},
+        {"force": _FORCE, "on": SPOT},
         {
             "direction": ANGLE,
             "frame": ChoiceEntry("frame of the direction; default: ground", ("ground", "body")),
@@ -68,11 +68,17 @@ LOAD = variant(
         },
     ),
     keys(
-        {"friction": quantity("N", "magnitude, against the velocity of the point", least=0.0), "on": spot()},
+        {
+            "friction": quantity("N", "magnitude, against the velocity of the point", least=0.0),
+            "on": SPOT,
+        },
         {"over": replace(_OVER, doc="input; default: the only input"), "while": _WINDOW},
     ),
     keys(
-        {"drag": quantity("N*s/m", "viscous: force per speed of the point, against it"), "on": spot()},
+        {
+            "drag": quantity("N*s/m", "viscous: force per speed of the point, against it"),
+            "on": SPOT,
+        },
         {"while": _WINDOW},
     ),
     name="load",
@@ -179,11 +185,11 @@ def load_data(name: str, load: Load, mechanism: Mechanism) -> JsonObject:
         return {**data, "over": load.input_name or TIME, "table": table_rows(load.at, at_unit, load.factors, unit)}
     if isinstance(load, PointForce | FollowerForce) and isinstance(load.on[1], str) and _is_complex(load.force):
         frame = "body" if isinstance(load, FollowerForce) else "ground"
-        return {"force": xy_of(complex(load.force)), "on": list(load.on), "frame": frame}
+        return {"force": xy_of(complex(load.force)), "on": load.on, "frame": frame}
     if isinstance(load, Torque) and _is_real(load.torque):
         return {"torque": load.torque, "on": load.body}
     if isinstance(load, Drag):
-        return {"drag": load.coefficient, "on": list(load.on)}
+        return {"drag": load.coefficient, "on": load.on}
     if (
         isinstance(load, Friction)
         and isinstance(load.on[1], str)
@@ -191,7 +197,7 @@ def load_data(name: str, load: Load, mechanism: Mechanism) -> JsonObject:
         and _is_default(load.side)
     ):
         window = {} if load.window is None else {"while": _window_data(load.window, load.input_name, mechanism)}
-        return {"friction": load.magnitude, "on": list(load.on), "over": load.input_name, **window}
+        return {"friction": load.magnitude, "on": load.on, "over": load.input_name, **window}
     raise MechanismError(f"load {name!r} is a function that no file expresses", do="write the others to the file")
 
 

@@ -15,7 +15,7 @@ from ilmek.io.mechanism.joints import JOINT, joint_data, members_of
 from ilmek.io.mechanism.loads import GRAVITY, LOAD, gravity_of, load_data, loads_of
 from ilmek.io.mechanism.mechanism import mechanism_of
 from ilmek.io.mechanism.motions import MOTION, motion_data, motions_of
-from ilmek.io.mechanism.names import ANGLE, MOST_ENTRIES, XY, driven_body, parts_of, spot, unit_of, xy_of
+from ilmek.io.mechanism.names import ANGLE, MOST_ENTRIES, SPOT, XY, driven_body, parts_of, unit_of, xy_of
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.mechanism.springs import DAMPER, SPRING, spring_data
 from ilmek.io.schema import Measured, SourceText, Table
@@ -92,7 +92,10 @@ FILE = TableEntry(
             refers="joint",
         ),
         "paths": ListEntry(
-            "points whose paths are drawn and listed; default: all points that are no joints", spot(), 0, 50
+            "points whose paths are drawn and listed; default: all points that are no joints",
+            SPOT,
+            0,
+            50,
         ),
         "transmission": ListEntry(
             "pins at which the transmission angle is listed; default: every free pin of a dyad",
@@ -169,7 +172,7 @@ def machine_data(machine: OwnMachine) -> JsonObject:
         "gravity": xy_of(machine.gravity) if machine.gravity else None,
         "servo": machine.servo,
         "actuators": {name: tasks.effort_of(mechanism.joint(name)) for name in machine.actuators},
-        "paths": [list(path) for path in machine.paths],
+        "paths": machine.paths,
         "redundant": list(mechanism.redundant),
         "transmission": list(machine.transmission),
         "bodies": {

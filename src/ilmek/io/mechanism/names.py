@@ -1,9 +1,9 @@
 """Names that one table of a mechanism file has for entries of another, and entries that many tables have."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from ilmek.errors import MechanismError, did_you_mean
-from ilmek.io.declared import ListEntry, QuantityEntry, TextEntry, quantity
+from ilmek.io.declared import ListEntry, QuantityEntry, SpotEntry, TextEntry, quantity
 from ilmek.io.schema import Measured
 from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
 
@@ -13,6 +13,7 @@ MOST_ENTRIES = 100
 LENGTH = quantity("m", 'like "60mm"')
 ANGLE = quantity("rad", 'like "170deg"')
 XY = ListEntry("x and y", LENGTH, 2, 2)
+SPOT = SpotEntry("a body and its point")
 MATERIAL = "of the table of materials"
 LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
 """Bounds of sizes and allowed stresses of sections and pins [SI], with which no power over- or underflows."""
@@ -38,14 +39,9 @@ def two_names(doc: str, refers: str) -> ListEntry:
     return ListEntry(doc, TextEntry("", refers), 2, 2)
 
 
-def spot(doc: str = "a body and its point") -> ListEntry:
-    """A body and its point."""
-    return ListEntry(doc, TextEntry(""), 2, 2, "spot")
-
-
 def two_spots(doc: str) -> ListEntry:
-    """Two bodies, each with its point."""
-    return ListEntry(doc, spot(), 2, 2)
+    """Two points of bodies."""
+    return ListEntry(doc, SPOT, 2, 2)
 
 
 def xy_of(point: complex) -> list[float]:
@@ -93,11 +89,10 @@ def unit_of(entry: Input) -> str:
     return "rad" if isinstance(entry, Rotation) else "m"
 
 
-def spot_of(given: Sequence[str], mechanism: Mechanism) -> tuple[str, str]:
+def spot_of(given: tuple[str, str], mechanism: Mechanism) -> tuple[str, str]:
     """A body and its point. Raises MechanismError if the mechanism does not have them."""
-    body, point = given
-    mechanism.point(body, point)
-    return body, point
+    mechanism.point(*given)
+    return given
 
 
 def driven_body(entry: Input, mechanism: Mechanism) -> str:

@@ -56,9 +56,6 @@ def _check_apart(first: str, second: str) -> None:
 
 def spring_data(spring: Spring | TorsionSpring) -> JsonObject:
     """The table of a spring or damper."""
-    ends: dict[str, Any]
-    if isinstance(spring, Spring):
-        ends = {"between": [list(end) for end in spring.ends]}
-    else:
-        ends = {"torsion": [spring.first, spring.second]}
+    bodies = [spring.first, spring.second]
+    ends: dict[str, Any] = {"between": spring.ends} if isinstance(spring, Spring) else {"torsion": bodies}
     return {**ends, **SPRING.table(ends).given(spring)}

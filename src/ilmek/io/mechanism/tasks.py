@@ -212,14 +212,12 @@ def servo_of(name: str | None, mechanism: Mechanism, actuators: Sequence[str], s
         return entry.name
 
 
-def paths_of(spots: Sequence[Sequence[str]], mechanism: Mechanism, source: SourceText) -> tuple[tuple[str, str], ...]:
+def paths_of(spots: Sequence[tuple[str, str]], mechanism: Mechanism, source: SourceText) -> tuple[tuple[str, str], ...]:
     """The points whose paths are drawn. Raises MechanismError for an unknown body or point."""
-    found = []
-    for number, (body, point) in enumerate(spots):
+    for number, spot in enumerate(spots):
         with source.located("paths", number):
-            mechanism.point(body, point)
-        found.append((body, point))
-    return tuple(dict.fromkeys(found))
+            mechanism.point(*spot)
+    return tuple(dict.fromkeys(spots))
 
 
 def transmission_of(names: Sequence[str], parts: Mapping[str, Sequence[Joint]], source: SourceText) -> tuple[str, ...]:

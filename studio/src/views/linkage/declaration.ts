@@ -40,7 +40,6 @@ function resolved(entry: Declared, value: unknown): Declared {
 }
 
 function inside(entry: Declared, key: string): Declared {
-  if (entry.refers === "spot") return { ...entry.items, refers: key === "0" ? "body" : "point" };
   return entry.items ?? entry.properties?.[key] ?? (entry.additionalProperties || {});
 }
 
@@ -54,18 +53,28 @@ export function entryAt(data: unknown, path: readonly string[]): Declared {
   return resolved(entry, value);
 }
 
+/** A point of a body, as the file has it: "body.point". */
+export function spotOf(body: string, point: string): string {
+  return `${body}.${point}`;
+}
+
+function namesOf(spot: string): [string, string] {
+  const at = spot.indexOf(".");
+  return [spot.slice(0, at), spot.slice(at + 1)];
+}
+
 /** What a name refers to: a body, joint, input, coupling, or a point of a body. */
 type Change = (kind: string, name: string, body: string | undefined) => string;
 
 /** A value of the file with other names in it. */
 export function withNames(value: unknown, declared: Declared, change: Change, body?: string): unknown {
   const entry = resolved(declared, value);
-  if (typeof value === "string") return entry.refers === undefined ? value : change(entry.refers, value, body);
-  if (Array.isArray(value)) {
-    if (entry.refers !== "spot") return value.map((one) => withNames(one, entry.items ?? {}, change, body));
-    const [on, point] = value as [string, string];
-    return [change("body", on, undefined), change("point", point, on)];
+  if (typeof value === "string" && entry.refers === "spot") {
+    const [on, point] = namesOf(value);
+    return spotOf(change("body", on, undefined), change("point", point, on));
   }
+  if (typeof value === "string") return entry.refers === undefined ? value : change(entry.refers, value, body);
+  if (Array.isArray(value)) return value.map((one) => withNames(one, entry.items ?? {}, change, body));
   if (!isTable(value)) return value;
   const keys = entry.propertyNames?.refers;
   const renamed = Object.entries(value).map(([key, one]) => [
@@ -91,10 +100,22 @@ export function hintOf({ description = "", unit, units = unit === undefined ? []
   return shown === "" ? description : `${description} [${shown}]`.trim();
 }
 
-/** The texts among which an entry is chosen, bodies and joints by their names; undefined: any may be typed. */
+/** Every point of a body that the file names, as "body.point". */
+function spots(data: Readonly<Record<string, unknown>>): readonly string[] {
+  const joints = Object.entries((data["joints"] ?? {}) as Record<string, Record<string, unknown>>);
+  return Object.entries((data["bodies"] ?? {}) as Record<string, { points?: object }>).flatMap(
+    ([body, { points = {} }]) => {
+      const joined = joints.filter(([, joint]) => Object.values(joint).flat().includes(body)).map(([name]) => name);
+      return [...new Set([...Object.keys(points), ...joined])].map((point) => spotOf(body, point));
+    },
+  );
+}
+
+/** The texts among which an entry is chosen: names of bodies, joints, points; undefined: any may be typed. */
 export function choicesOf(entry: Declared, data: Readonly<Record<string, unknown>>): readonly string[] | undefined {
   if (entry.enum !== undefined) return entry.enum.map(String);
   if (entry.type === "boolean") return ["true", "false"];
+  if (entry.refers === "spot") return spots(data);
   const named = { body: data["bodies"], joint: data["joints"] }[entry.refers ?? ""];
   return named === undefined ? undefined : Object.keys(named as object);
 }

@@ -71,11 +71,10 @@ export function leaves(entry: unknown, path: readonly string[] = []): { path: re
   return [{ path, value: String(entry) }];
 }
 
-/** What the two places of a list are called: of a body and its point, of two bodies, else of coordinates. */
+/** What the two places of a list are called: of two bodies, of two points, else of coordinates. */
 function places(path: readonly string[]): readonly string[] {
-  const body = t("linkage.onBody");
-  if (path.includes("torsion")) return [`${body} 1`, `${body} 2`];
-  return path.includes("on") || path.includes("between") ? [body, t("linkage.atPoint")] : ["x", "y"];
+  const kind = path.includes("torsion") ? t("linkage.onBody") : path.includes("between") ? t("linkage.atPoint") : "";
+  return kind === "" ? ["x", "y"] : [`${kind} 1`, `${kind} 2`];
 }
 
 /** The name of an entry: "A x", "mass", "force1 on body". */

@@ -1,7 +1,7 @@
 /** The plain data of a mechanism file, and the edits of the drawing: each a function of the data that it changes. */
 import type { Body, Joint, MechanismFile } from "../../api/mechanism";
 import { quantityText } from "../../ui";
-import { FILE, hasName } from "./declaration";
+import { FILE, hasName, spotOf } from "./declaration";
 import { type Pose, STILL, toLocal, type Vec } from "./geometry";
 
 export type Entry = unknown;
@@ -178,7 +178,7 @@ export function addGears(data: MechanismData, first: string, second: string, pos
   const couplings = (data["couplings"] ?? {}) as Record<string, Table>;
   const name = freeName(new Set([...Object.keys(couplings), ...Object.keys(joints(data))]), "gears");
   const angle = (body: string) => (poses[body]?.angle ?? 0) - (poses[carrier]?.angle ?? 0);
-  const entry: Table = { gears: [[a, first], [b, second]], ratio: -1 }; // biome-ignore format: a pair of pairs
+  const entry: Table = { gears: [spotOf(a, first), spotOf(b, second)], ratio: -1 };
   entry["first_at"] = angleEntry(data, angle(a));
   entry["second_at"] = angleEntry(data, angle(b));
   if (carrier !== GROUND) entry["carrier"] = carrier;
@@ -220,7 +220,7 @@ export function addForce(data: MechanismData, body: string, point: string): stri
   const name = freeName(new Set(Object.keys(loads)), "force");
   const force = data.units === "SI" ? 100 : "100N";
   const down = data.units === "SI" ? -Math.PI / 2 : "-90deg";
-  data["loads"] = { ...loads, [name]: { force, direction: down, on: [body, point] } };
+  data["loads"] = { ...loads, [name]: { force, direction: down, on: spotOf(body, point) } };
   return name;
 }
 

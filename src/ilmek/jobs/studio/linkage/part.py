@@ -150,9 +150,9 @@ def _table(data: Table, key: str) -> JsonObject:
 
 
 def _names(entry: object, bodies: tuple[str, ...]) -> bool:
-    """Whether an entry names one of the bodies."""
+    """Whether an entry names one of the bodies, or one of their points, "body.point"."""
     inner = entry.values() if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
-    return entry in bodies if isinstance(entry, str) else any(_names(one, bodies) for one in inner)
+    return entry.partition(".")[0] in bodies if isinstance(entry, str) else any(_names(one, bodies) for one in inner)
 
 
 def solved_part(mechanism: Mechanism, steps: tuple[Step, ...]) -> Mechanism:
