@@ -4,17 +4,21 @@ The linkage is that of the project's comparison of solvers (`fb-free`, `fb-spin`
 .129/.434/.649 kg, J = m L²/12, fall 9.81 m/s². `fb-spin` is said there to make 99.6 turns in 2 s.
 """
 
+from collections.abc import Iterable, Mapping
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from ilmek.dynamics.forward import ForwardState, forward
-from ilmek.dynamics.inertia import bar
+from ilmek.dynamics.inertia import Inertia, bar
+from ilmek.dynamics.input_loads import Drag, FollowerForce
 from ilmek.dynamics.inverse import inverse
-from ilmek.dynamics.loads import Gravity, Torque
+from ilmek.dynamics.loads import Gravity, Load, Torque, Wrench
 from ilmek.dynamics.reduced import ReducedMechanism, reduce
+from ilmek.dynamics.springs import Spring
 from ilmek.linkage.fourbar import four_bar
+from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import plan
 
 G, A, B, C = 0.3, 0.0597, 0.2007, 0.2308
@@ -100,3 +104,33 @@ def test_loads_enter_alike_as_constants_functions_and_drive() -> None:
     assert abs(runs[0].position[-1] - runs[1].position[-1]) < 1e-10
     turned = runs[0].motion().angle("rocker")
     assert np.allclose(runs[0].load_work, 0.3 * (turned - turned[0]), rtol=0, atol=1e-10)
+
+
+class Foreign:
+    """A load of which nothing is known."""
+
+    def __init__(self, load: Load) -> None:
+        self.load = load
+
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
+        return self.load.wrenches(motion, inertias)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        Drag("coupler.B", 4.0),
+        Spring("ground.B0", "coupler.A", 400.0, 0.2, damping=3.0),
+        FollowerForce("rocker.B", 2 + 1j),
+    ],
+    ids=lambda load: type(load).__name__,
+)
+def test_a_load_in_the_table_is_that_of_the_mechanism(load: Load) -> None:
+    plain = linkage()
+    known, foreign = (reduce(plain.plan, plain.inertias, (*plain.weights, one)) for one in (load, Foreign(load)))
+    runs = [forward(one, ForwardState(0.3, 15.0), 0.03, rtol=1e-11) for one in (known, foreign)]
+    assert not known.live
+    assert foreign.live
+    assert abs(runs[0].position[-1] - runs[1].position[-1]) < 1e-10
+    assert abs(runs[0].load_work[-1] - runs[1].load_work[-1]) < 1e-8
+    assert np.allclose(runs[0].acceleration[0], runs[1].acceleration[0], rtol=1e-10)

@@ -34,7 +34,8 @@ from ilmek.records import record
 
 @record
 class StateTerms:
-    """The linear terms at a state; arrays over 1 + inputs samples: no acceleration, then each unit acceleration.
+    """The linear terms at a state, with poses in 1 + inputs + laws samples: without acceleration, then with each unit
+    acceleration, then, without loads, with the unit effort of each law.
 
     matrix     D + W, shape (inputs, inputs)      rest  b, shape (inputs,)
     levers     r, shape (inputs, laws)            forces, responses  components of F by sample, and of each G
@@ -45,7 +46,7 @@ class StateTerms:
     matrix: FloatArray
     rest: FloatArray
     levers: FloatArray
-    forces: Float[np.ndarray, "laws 2 samples"]
+    forces: Float[np.ndarray, "laws 2 accelerations"]
     responses: Float[np.ndarray, "laws laws 2"]
     power: float
 
@@ -84,37 +85,43 @@ class GeneralEquation:
     def terms(self, time: float, row: Row) -> StateTerms | None:
         """The terms at a row; None where the mechanism does not close."""
         names, count = tuple(self.reduced.wheels), len(self.drives)
-        units = np.eye(count + 1)[1:]
+        samples = 1 + count + len(self.laws)
+        units = np.eye(samples)
+        whole = np.where(np.arange(samples) <= count, 1.0, 0.0)
         values, speeds = (
-            {name: np.full(count + 1, one) for name, one in zip(names, part, strict=True)}
+            {name: np.full(samples, one) for name, one in zip(names, part, strict=True)}
             for part in (row[:count], row[count : 2 * count])
         )
-        solved = solve(self.reduced.plan, values, speeds, dict(zip(names, units, strict=True)))
+        solved = solve(self.reduced.plan, values, speeds, dict(zip(names, units[1:], strict=False)))
         if solved.status.any():
             return None
-        motion = replace(solved, time=np.full(count + 1, time))
+        motion = replace(solved, time=np.full(samples, time))
         bodies = {body: self.reduced.inertias.get(body, MASSLESS) for body in motion.plan.mechanism.moving}
         poses = pose_block(motion, bodies)
         loads = (*self.reduced.weights, *self.reduced.steady, *self.reduced.live)
         wrenches = [(load, wrench) for load in loads for wrench in load.wrenches(motion, bodies)]
         acting = [wrench for _, wrench in wrenches if wrench.body != GROUND]
-        rubbing = [law for law in self.reduced.frictions if law.drag]
-        drag = {law.joint: np.full(count + 1, -law.drag * _rate(poses, law.joint)) for law in rubbing}
-        needed = loaded(poses, needs(poses, bodies, acting), drag)
-        pulls, nothing = joint_pulls(poses, needed), {body: ForceAndMoment(0j, 0.0) for body in bodies}
-        each = [joint_pulls(poses, loaded(poses, nothing, {law.joint: np.ones(count + 1)})) for law in self.laws]
+        needed = {
+            body: ForceAndMoment(need.force * whole, need.moment * whole)
+            for body, need in needs(poses, bodies, acting).items()
+        }
+        drag = {law.joint: -law.drag * _rate(poses, law.joint) for law in self.reduced.frictions if law.drag}
+        rubbing = {joint: effort * whole for joint, effort in drag.items()}
+        for law, unit in zip(self.laws, units[1 + count :], strict=True):
+            rubbing[law.joint] = rubbing.get(law.joint, 0.0) + unit
+        pulls = joint_pulls(poses, loaded(poses, needed, rubbing))
         joints, efforts = [poses.joints[law.joint] for law in self.laws], _driven(poses, pulls)
+        parts = components(joints, self.laws, pulls, samples, whole)
         others = [wrench for load, wrench in wrenches if not isinstance(load, Gravity) and wrench.body != GROUND]
-        power = load_power(poses, others) + sum(effort * _rate(poses, name) for name, effort in drag.items())
-        responses = [components(joints, self.laws, unit, count + 1, 0.0)[..., 0] for unit in each]
+        power = load_power(poses, others) + sum(effort * _rate(poses, joint) for joint, effort in drag.items())
         return StateTerms(
             poses,
-            (efforts[1:] - efforts[0]).T + np.diag(list(self.reduced.wheels.values())),
+            (efforts[1 : count + 1] - efforts[0]).T + np.diag(list(self.reduced.wheels.values())),
             efforts[0],
-            np.array([_driven(poses, unit)[0] for unit in each]).reshape(len(self.laws), count).T,
-            components(joints, self.laws, pulls, count + 1),
-            np.array(responses),
-            float(np.broadcast_to(power, count + 1)[0]),
+            efforts[count + 1 :].T,
+            parts[..., : count + 1],
+            np.moveaxis(parts[..., count + 1 :], -1, 0),
+            float(np.broadcast_to(power, samples)[0]),
         )
 
     def moved(
@@ -190,6 +197,7 @@ class GeneralEquation:
         if terms is None:
             return self
         seconds = np.stack([second_rate(terms.poses, terms.poses.joints[law.joint]) for law in self.laws[: self.dry]])
+        seconds = seconds[:, : len(efforts) + 1]
 
         def starts(signs: FloatArray) -> FloatArray:
             acceleration, _ = self.moved(terms, efforts, signs.tolist())

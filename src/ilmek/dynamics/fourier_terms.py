@@ -29,21 +29,21 @@ MAX_NODES = 8192
 
 @record
 class FourierTerms:
-    """J, Q of gravity and Q of the other steady loads, each as the real part of Σ c_k e^{ikq}.
+    """J, Q of gravity, Q of the other steady loads and its fall by the speed, each as the real part of Σ c_k e^{ikq}.
 
     coefficients  c_k, one column per term
     error         greatest error found, relative to the greatest value of its term
     """
 
-    coefficients: Complex[np.ndarray, "terms 3"]
+    coefficients: Complex[np.ndarray, "terms 4"]
     error: float
 
-    def __call__(self, position: float) -> tuple[float, float, float]:
-        """J [kg m²] and the two Q [N m] at an input angle [rad]."""
+    def __call__(self, position: float) -> tuple[float, float, float, float]:
+        """J [kg m²], the two Q [N m] and the fall of Q [N m s] at an input angle [rad]."""
         # NumPy, not a kernel: loading the compiler takes longer than a whole run-up.
         waves = np.exp(np.arange(len(self.coefficients)) * (1j * position))
-        inertia, weight, push = (waves @ self.coefficients).real.tolist()
-        return inertia, weight, push
+        inertia, weight, push, drag = (waves @ self.coefficients).real.tolist()
+        return inertia, weight, push, drag
 
 
 def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:
@@ -74,7 +74,7 @@ def _on(reduced: ReducedMechanism, nodes: int) -> FourierTerms | None:
     found = reduced.terms(at)
     if found.status.any():
         return None
-    values = np.stack((found.inertia, found.weight, found.push), axis=1)
+    values = np.stack((found.inertia, found.weight, found.push, found.drag), axis=1)
     series = np.fft.rfft(values[::2], axis=0)[: nodes // 2]
     half_step = np.exp(1j * at[1] * np.arange(nodes // 2))
     between = np.fft.irfft(series * half_step[:, None], nodes, axis=0)
@@ -83,7 +83,7 @@ def _on(reduced: ReducedMechanism, nodes: int) -> FourierTerms | None:
     return FourierTerms(_trimmed(series / nodes, size), float(np.max(np.abs(between - values[1::2]) / size)))
 
 
-def _trimmed(series: Complex[np.ndarray, "terms 3"], size: Float[np.ndarray, " 3"]) -> Complex[np.ndarray, "kept 3"]:
+def _trimmed(series: Complex[np.ndarray, "terms 4"], size: Float[np.ndarray, " 4"]) -> Complex[np.ndarray, "kept 4"]:
     """The series without trailing terms whose sum is below a thousandth of rounding."""
     tail = np.cumsum(np.max(np.abs(series) / size, axis=1)[::-1])[::-1]
     kept = max(int(np.count_nonzero(tail > 1e-19)), 1)

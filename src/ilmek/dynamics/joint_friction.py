@@ -74,7 +74,7 @@ class PinFriction:
         """Of the size of the pin force: mu r [m]."""
         return self.coefficient * self.radius
 
-    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: RealField = 1.0) -> Components:  # noqa: ARG002
         """The pin force F [N]."""
         return pull.force.real, pull.force.imag
 
@@ -113,7 +113,7 @@ class SlideFriction:
         """Of the force on the guide: mu [1]."""
         return self.coefficient
 
-    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: RealField = 1.0) -> Components:  # noqa: ARG002
         """N and 2 C / b [N]."""
         line = joint.line if joint.line is not None else 1 + 0j
         return dot(1j * line, pull.force), 2 * pull.moment / self.breadth
@@ -132,7 +132,7 @@ class ToothSeparation:
         """Of the force along the pitch line: tan alpha [1]."""
         return math.tan(self.pressure_angle)
 
-    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: RealField = 1.0) -> Components:  # noqa: ARG002
         """The force along the pitch line [N]."""
         return pull.force.real, pull.force.imag
 
@@ -157,7 +157,7 @@ class SpanTension:
         """1: the force is the greater component."""
         return 1.0
 
-    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: RealField = 1.0) -> Components:
         """M_2 / r_2 cos alpha, the difference of the forces in the spans, and 2 T_0 cos alpha [N]."""
         assert joint.middle is not None
         torque = pull.moment + cross(joint.at - joint.middle, pull.force)
@@ -233,7 +233,7 @@ def efforts(
 
 
 def components(
-    joints: Sequence[JointPoses], laws: Sequence[EffortLaw], pulls: Pulls, samples: int, given: float = 1.0
+    joints: Sequence[JointPoses], laws: Sequence[EffortLaw], pulls: Pulls, samples: int, given: RealField = 1.0
 ) -> Float[np.ndarray, "laws 2 samples"]:
     """Components of the joint forces of all laws [N]; given: 0 where the forces are changes."""
     found = np.empty((len(laws), 2, samples))

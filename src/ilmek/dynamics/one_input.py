@@ -27,14 +27,14 @@ class OneInputEquation:
     table: FourierTerms | None
     drive: Drive | None
 
-    def terms(self, position: float) -> tuple[float, float, float]:
-        """J, Q of gravity and Q of the other steady loads; NaN where the mechanism does not close."""
+    def terms(self, position: float) -> tuple[float, float, float, float]:
+        """J, Q of gravity, Q of the other steady loads and its fall by the speed; NaN: the mechanism does not close."""
         if self.table is not None:
             return self.table(position)
         found = self.reduced.terms(np.array([position]))
         if found.status[0] != Status.OK:
-            return math.nan, math.nan, math.nan
-        return float(found.inertia[0]), float(found.weight[0]), float(found.push[0])
+            return math.nan, math.nan, math.nan, math.nan
+        return tuple(float(one[0]) for one in (found.inertia, found.weight, found.push, found.drag))  # type: ignore[return-value]
 
     def efforts(self, time: float, position: float, speed: float) -> tuple[float, float]:
         """Efforts of the drive and of the live loads [N m; N]."""
@@ -48,13 +48,13 @@ class OneInputEquation:
         position = float(row[0])
         if not math.isfinite(position):
             return math.nan, math.nan, math.nan, math.nan
-        inertia, weight, steady = self.terms(position)
+        inertia, weight, push, drag = self.terms(position)
         if not inertia > 0:
             return math.nan, math.nan, math.nan, math.nan
         root = math.sqrt(inertia)
         speed = float(row[1]) / root
         effort, live = self.efforts(time, position, speed)
-        load = steady + live
+        load = push - drag * speed + live
         return speed, (weight + load + effort) / root, effort * speed, load * speed
 
     def state(self, time: float, row: Row) -> ForwardState:
@@ -65,7 +65,7 @@ class OneInputEquation:
     def first(self, start: ForwardState) -> tuple[Row, Row]:
         """The first row, and the scale of the errors: 1 rad, and the energy at the start or the work over 1 rad."""
         position, speed = float(start.position), float(start.speed)
-        inertia, weight, steady = self.terms(position)
+        inertia, weight, push, drag = self.terms(position)
         effort, live = self.efforts(start.time, position, speed)
         if not math.isfinite(effort + live):
             raise MechanismError(
@@ -76,7 +76,7 @@ class OneInputEquation:
         if not inertia > 0:
             raise MechanismError("no mass moves with the input at the start", do="give a flywheel or another start")
         momentum = math.sqrt(inertia) * speed
-        energy = max(0.5 * momentum**2, abs(weight) + abs(steady) + abs(effort) + abs(live)) or inertia
+        energy = max(0.5 * momentum**2, abs(weight) + abs(push - drag * speed) + abs(effort) + abs(live)) or inertia
         return np.array([position, momentum, 0.0, 0.0]), np.array([1.0, math.sqrt(2 * energy), energy, energy])
 
     def history(self, time: Samples, rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -86,5 +86,5 @@ class OneInputEquation:
         speed: FloatArray = momentum / np.sqrt(found.inertia)
         efforts = [self.efforts(*state) for state in zip(time, position, speed, strict=True)]
         effort, live = np.array(efforts).T
-        force = found.weight + found.push + live + effort - 0.5 * found.slope * speed**2
+        force = found.weight + found.push - found.drag * speed + live + effort - 0.5 * found.slope * speed**2
         return speed, force / found.inertia, effort

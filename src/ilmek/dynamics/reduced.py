@@ -17,8 +17,10 @@ import numpy as np
 from ilmek.arguments import Arguments
 from ilmek.arrays import Float, FloatArray, Int8
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.input_loads import Drag, FollowerForce
 from ilmek.dynamics.joint_friction import JointFriction, check_joints
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
+from ilmek.dynamics.springs import Spring
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.motion import Motion
@@ -35,14 +37,15 @@ class Terms:
     """The terms of the reduced equation, one value per sample; NaN where the mechanism does not close.
 
     inertia  J [kg m²; kg for a sliding input]       slope   dJ/dq
-    weight   Q of gravity [N m; N]                   push    Q of the other loads that depend on the pose only [N m; N]
-    status   `Status` of each sample
+    weight   Q of gravity [N m; N]                   push    Q of the steady loads at rest [N m; N]
+    drag     fall of that Q by the speed [N m s; N s/m]          status  `Status` of each sample
     """
 
     inertia: Samples
     slope: Samples
     weight: Samples
     push: Samples
+    drag: Samples
     status: Int8[np.ndarray, " samples"]
 
 
@@ -51,7 +54,7 @@ class ReducedMechanism:
     """A mechanism with its masses, loads and friction, reduced to its inputs; built by `reduce`.
 
     weights    gravity loads
-    steady     other loads that depend on the pose only
+    steady     other loads that depend on the pose only, or linearly on the speed as well
     live       loads that may depend on speed and time as well
     wheels     input -> inertia that moves with it, including the motor's rotor [kg m²; kg for a sliding input]
     frictions  of joints
@@ -83,8 +86,10 @@ class ReducedMechanism:
             inertia = inertia + weighed.mass * np.abs(centre.velocity) ** 2 + weighed.moment * omega**2
             turning = weighed.moment * omega * unit.alpha(body)
             slope = slope + 2 * (weighed.mass * dot(centre.velocity, centre.acceleration) + turning)
-        weight, push = (self._force(unit, unit, loads) for loads in (self.weights, self.steady))
-        return Terms(inertia, slope, weight, push, unit.status)
+        weight, moving = (self._force(unit, unit, loads) for loads in (self.weights, self.steady))
+        damped = any(isinstance(load, Drag | Spring) for load in self.steady)
+        push = self._force(unit, solve(self.plan, position), self.steady) if damped else moving
+        return Terms(inertia, slope, weight, push, push - moving, unit.status)
 
     def live_force(self, position: Samples, speed: Samples, time: Samples) -> Samples:
         """Q of the loads that may depend on the motion [N m; N], at input values [rad; m], speeds [rad/s; m/s] and
@@ -173,8 +178,8 @@ def _wheels(mechanism: Mechanism, flywheel: float | Mapping[str, float]) -> dict
 
 
 def _steady(load: Load) -> bool:
-    """Whether a load is known to depend on the pose only."""
+    """Whether a load is known to depend on the pose only, or linearly on the speed as well."""
     law = load.force if isinstance(load, PointForce) else load.torque if isinstance(load, Torque) else None
     if np.ndim(law if not callable(law) else 0):  # type: ignore[arg-type]
         raise MechanismError(f"a load on {getattr(load, 'body', '?')!r} is given by sample", do="give it as a function")
-    return law is not None and not callable(law)
+    return isinstance(load, Drag | FollowerForce | Spring) or (law is not None and not callable(law))
