@@ -117,6 +117,15 @@ def test_columns_are_written_as_they_are(tmp_path: Path) -> None:
         assert np.array_equal([float(row[number]) for row in rows], values)
 
 
+def test_a_table_of_records_is_written_as_it_is(tmp_path: Path) -> None:
+    made = ilmek.parameters("cam")
+    made.save(tmp_path / "cam.csv")
+    with (tmp_path / "cam.csv").open(encoding="utf-8") as stream:
+        heads, *rows = list(csv.reader(stream))
+    assert heads == list(made.fields)
+    assert [row[0] for row in rows] == [one.name for one in made]
+
+
 def test_a_picture_is_written_as_svg(tmp_path: Path) -> None:
     cam().save(tmp_path / "cam.svg")
     assert ET.parse(tmp_path / "cam.svg").getroot().tag == f"{SVG}svg"

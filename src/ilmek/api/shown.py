@@ -20,6 +20,7 @@ from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.dynamics.forward_run import ForwardRun
 from ilmek.dynamics.inverse import Forces
 from ilmek.errors import IlmekError, ParameterError
+from ilmek.io.csv_cells import csv_rows
 from ilmek.io.json_file import json_text
 from ilmek.io.output.outputs import Outputs
 from ilmek.io.table_csv import csv_text
@@ -33,7 +34,7 @@ from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.report import Animation, Axis, Check, Dot, Drawing, Figure, Gantt, Plot, Report, StackedBars, Timing
-from ilmek.report.framed import Framed
+from ilmek.report.framed import Framed, RecordTable
 from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import draw_carpet
 from ilmek.viz.page import machine_page
@@ -220,6 +221,8 @@ def _forms(record: object) -> Iterator[tuple[str, Callable[[], str]]]:
         yield from _forms(record.report)
     if isinstance(record, Framed):
         yield ".csv", lambda: csv_text(dict(record.table()))
+    if isinstance(record, RecordTable):
+        yield ".csv", lambda: csv_rows([record.fields, *zip(*record.table().values(), strict=True)])
     drawn = None if isinstance(record, Report | MachineRun) else figure(record)
     if drawn is not None:
         yield ".svg", lambda: svg(drawn)

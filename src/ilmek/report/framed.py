@@ -67,7 +67,7 @@ class Framed(Shown, ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class RecordTable(Generic[Row]):
+class RecordTable(Shown, Generic[Row]):
     """Records of one kind as the rows of a table: a sequence of them, with a column for each of some fields."""
 
     rows: tuple[Row, ...]
