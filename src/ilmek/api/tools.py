@@ -23,7 +23,7 @@ from ilmek.errors import ParameterError
 from ilmek.jobs.check import CheckResult
 from ilmek.jobs.inspect import InspectionResult
 from ilmek.linkage.judged import JudgedMechanism
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import Report
 from ilmek.report.framed import RecordTable
 from ilmek.synthesis.result import Synthesis
@@ -47,7 +47,7 @@ class Tool:
     required: int = 0
     file: str = ""
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self) -> JsonObject:
         """JSON Schema of the arguments."""
         properties = {name: {"type": kind, "description": doc} for name, (kind, doc) in self.arguments.items()}
         required = list(self.arguments)[: self.required]
@@ -119,7 +119,7 @@ TOOLS: Mapping[str, Tool] = {
 """Tools by name; at most twelve, so that an agent sees them all."""
 
 
-def call_tool(folder: Path, name: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
+def call_tool(folder: Path, name: str, arguments: Mapping[str, Any]) -> JsonObject:
     """The answer of a tool: verdict, checks, results.
 
     folder  in which files are      Raises ParameterError for an unknown tool or argument, a missing one, and a file
@@ -151,13 +151,13 @@ def _inside(folder: Path, name: object) -> str:
 
 
 @singledispatch
-def answer(found: Any) -> dict[str, Any]:
+def answer(found: Any) -> JsonObject:
     """What a tool answers of a result of a verb."""
     return {"results": found}
 
 
 @answer.register
-def _(report: Report) -> dict[str, Any]:
+def _(report: Report) -> JsonObject:
     data = report.as_json()
     failed = [check.name for check in report.failed]
     verdict = f"failed: {', '.join(failed)}" if failed else "all checks hold"
@@ -166,30 +166,30 @@ def _(report: Report) -> dict[str, Any]:
 
 
 @answer.register
-def _(run: MachineRun) -> dict[str, Any]:
+def _(run: MachineRun) -> JsonObject:
     return answer(run.report)
 
 
 @answer.register
-def _(mechanism: JudgedMechanism) -> dict[str, Any]:
+def _(mechanism: JudgedMechanism) -> JsonObject:
     return {"results": dict(facts(mechanism))}
 
 
 @answer.register
-def _(found: Synthesis) -> dict[str, Any]:  # type: ignore[type-arg]
+def _(found: Synthesis) -> JsonObject:  # type: ignore[type-arg]
     left_out = [{"reason": entry.reason, "count": entry.count} for entry in found.left_out]
     solutions = {heading: column.tolist() for heading, column in found.table().items()}
     return {"ok": bool(found), "verdict": repr(found), "left_out": left_out, "results": solutions}
 
 
 @answer.register
-def _(rows: RecordTable) -> dict[str, Any]:  # type: ignore[type-arg]
+def _(rows: RecordTable) -> JsonObject:  # type: ignore[type-arg]
     return {"results": [{field: _shown(getattr(row, field)) for field in rows.fields} for row in rows]}
 
 
 @answer.register(CheckResult)
 @answer.register(InspectionResult)
-def _(found: CheckResult | InspectionResult) -> dict[str, Any]:
+def _(found: CheckResult | InspectionResult) -> JsonObject:
     return {"ok": getattr(found, "ok", True), "results": found.as_json()}
 
 

@@ -27,7 +27,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross, dot
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.framed import Framed
 from ilmek.units import counted, format_quantity
 
@@ -285,7 +285,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actu
 def _without(forces: Forces, missing: Undetermined) -> Forces:
     """The forces with NaN where they are not determined."""
 
-    def shown(arrays: Mapping[str, Any], names: frozenset[str]) -> dict[str, Any]:
+    def shown(arrays: Mapping[str, Any], names: frozenset[str]) -> JsonObject:
         return {name: np.full_like(array, np.nan) if name in names else array for name, array in arrays.items()}
 
     return replace(

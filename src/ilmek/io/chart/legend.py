@@ -1,7 +1,6 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
@@ -11,6 +10,7 @@ from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
+from ilmek.records import JsonObject
 from ilmek.sentences import Sentence
 from ilmek.units import cm, format_number, g, mm
 
@@ -236,7 +236,7 @@ def _cm(length: float) -> str:
     return format_number(length / cm)
 
 
-def _middle(what: str, after: float) -> dict[str, Any]:
+def _middle(what: str, after: float) -> JsonObject:
     """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
     if after == int(after):
         return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}

@@ -21,6 +21,7 @@ from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import tools_height
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.machines.weaver.widths import STATIONS
+from ilmek.records import JsonObject
 from ilmek.units import g, mm
 
 PLATES = (8 * mm, 10 * mm, 12 * mm, 15 * mm, 20 * mm)
@@ -53,7 +54,7 @@ def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
         "sley_stroke": own.front_span + height + own.plate,
     }
     sizes = {name: min(size, GREATEST[name]) for name, size in needed.items()}
-    more: dict[str, Any] = {name: size for name, size in sizes.items() if size > getattr(params, name)}
+    more: JsonObject = {name: size for name, size in sizes.items() if size > getattr(params, name)}
     if height > own.height:
         back = max(own.back_span + own.height - height, own.front_span)
         more["opener"] = replace(own, height=height, back_span=back)
