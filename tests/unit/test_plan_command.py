@@ -235,7 +235,7 @@ def test_a_programme_is_woven_only_by_the_loom_that_it_was_compiled_for(
     orders = ORDERS.partition("picture")[0] + 'programme = "p.ilmek"\ndue = 2026-12-18\n'
     found = json.loads(plan(written(tmp_path, orders=orders), "--json", "-").stdout)
     assert [one["name"] for one in found["reasons"]] == ["one on A: programme: compiled for this loom"]
-    monkeypatch.setattr("ilmek.jobs.plan_inputs.loom_digest", lambda _: programme.setup.loom)
+    monkeypatch.setattr("ilmek.jobs.plan_fits.loom_digest", lambda _: programme.setup.loom)
     (order,) = json.loads(plan(tmp_path, "--json", "-").stdout)["orders"]
     assert (order["loom"], order["late"]) == ("A", 0)
 

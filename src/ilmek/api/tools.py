@@ -119,7 +119,7 @@ TOOLS: Mapping[str, Tool] = {
 """Tools by name; at most twelve, so that an agent sees them all."""
 
 
-def call_tool(folder: Path, name: str, arguments: Mapping[str, Any]) -> JsonObject:
+def call_tool(folder: Path, name: str, arguments: Mapping[str, object]) -> JsonObject:
     """The answer of a tool: verdict, checks, results.
 
     folder  in which files are      Raises ParameterError for an unknown tool or argument, a missing one, and a file
@@ -151,7 +151,7 @@ def _inside(folder: Path, name: object) -> str:
 
 
 @singledispatch
-def answer(found: Any) -> JsonObject:
+def answer(found: object) -> JsonObject:
     """What a tool answers of a result of a verb."""
     return {"results": found}
 

@@ -9,7 +9,7 @@ on its `body`; an input's effort acts on the driven body. The opposite acts on t
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -285,7 +285,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actu
 def _without(forces: Forces, missing: Undetermined) -> Forces:
     """The forces with NaN where they are not determined."""
 
-    def shown(arrays: Mapping[str, Any], names: frozenset[str]) -> JsonObject:
+    def shown(arrays: Mapping[str, object], names: frozenset[str]) -> JsonObject:
         return {name: np.full_like(array, np.nan) if name in names else array for name, array in arrays.items()}
 
     return replace(

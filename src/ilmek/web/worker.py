@@ -211,7 +211,7 @@ def encoded_json(value: object) -> bytes:
     return msgspec.json.encode(value, enc_hook=_plain)
 
 
-def _plain(value: Any) -> object:
+def _plain(value: object) -> object:
     """The data of an array or a number of numpy, the text of a sentence. Raises TypeError for anything else."""
     return value.tolist() if hasattr(value, "tolist") else text_of(value)
 

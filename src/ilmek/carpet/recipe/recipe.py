@@ -167,7 +167,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> JsonObject:
     def path(file: Path | None) -> str:
         return "" if file is None else named(file)
 
-    def given(**entries: Any) -> JsonObject:
+    def given(**entries: object) -> JsonObject:
         return {key: value for key, value in entries.items() if value}
 
     data = given(picture=path(recipe.picture), plain=recipe.plain, mirror=recipe.mirror)

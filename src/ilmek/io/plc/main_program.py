@@ -1,7 +1,6 @@
 """The program that a task runs: the loom's block, its signals at their addresses, the host's values as variables."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from ilmek.io.plc.io_list import HOST, IoRow
 from ilmek.io.plc.sequence_logic import BLOCK
@@ -21,7 +20,7 @@ def element_name(element: str) -> str:
     return element.replace("[", "").replace("]", "") if "[" in element else f"{element}Signal"
 
 
-def signal_values(values: Mapping[str, Any]) -> JsonObject:
+def signal_values(values: Mapping[str, object]) -> JsonObject:
     """Values of the block's variables as those of the program: one for each signal with an address.
 
     >>> signal_values({"TieDone": [True, False], "EndDone": True, "EndAnswer": 2})
