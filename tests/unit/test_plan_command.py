@@ -205,7 +205,7 @@ BEGUN = 'downtime = ["2026-12-02T08:00/2026-12-02T10:00"]\nweaving = { order = "
 
 
 def test_what_is_on_a_loom_stays_there_at_its_own_pace(tmp_path: Path) -> None:
-    """25 of 225 rows in 8 h of Monday: 200 rows take 64 h, from Tuesday 06:00 on; 90 min of doffing; 2 h of downtime."""
+    """25 of 225 rows in 8 h of Monday: 200 rows take 64 h from Tuesday 06:00 on, 90 min of doffing, 2 h of downtime."""
     first = written(tmp_path, orders=ORDERS.replace("due", "quantity = 2\ndue"))
     assert plan(first, "--out", str(tmp_path / "first"), "--json", str(tmp_path / "first.json")).exit_code == 0
     written(tmp_path, (first / "orders.toml").read_text(), LOOMS.replace("doffing", BEGUN + "doffing"))
