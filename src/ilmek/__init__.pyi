@@ -38,10 +38,10 @@ from ilmek.api.masses import bar as bar
 from ilmek.api.masses import bar_mass as bar_mass
 from ilmek.api.masses import combined as combined
 from ilmek.api.masses import point_mass as point_mass
+from ilmek.api.mechanisms import forward_dynamics as forward_dynamics
 from ilmek.api.mechanisms import four_bar as four_bar
 from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
 from ilmek.api.mechanisms import read_mechanism as read_mechanism
-from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
@@ -63,10 +63,13 @@ from ilmek.carpet.chart import Chart as Chart
 from ilmek.dynamics.forward_run import ForwardRun as ForwardRun
 from ilmek.dynamics.inertia import Inertia as Inertia
 from ilmek.dynamics.inverse import Forces as Forces
+from ilmek.dynamics.joint_friction import PinFriction as PinFriction
+from ilmek.dynamics.joint_friction import SlideFriction as SlideFriction
 from ilmek.dynamics.loads import Gravity as Gravity
 from ilmek.dynamics.loads import Load as Load
 from ilmek.dynamics.loads import PointForce as PointForce
 from ilmek.dynamics.loads import Torque as Torque
+from ilmek.dynamics.motor_drive import MotorDrive as MotorDrive
 from ilmek.dynamics.own_machine import OwnMachine as OwnMachine
 from ilmek.dynamics.springs import Spring as Spring
 from ilmek.errors import IlmekError as IlmekError

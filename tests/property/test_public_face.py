@@ -269,7 +269,7 @@ ANYTHING = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.tuples(inner, inner) | st.dictionaries(st.text(max_size=3), inner),
     max_leaves=5,
 )
-SHORT = [name for name, call in CALLS.items() if not call.long and call.positional and name != "simulate"]
+SHORT = [name for name, call in CALLS.items() if not call.long and call.positional and name != "forward_dynamics"]
 
 
 @settings(max_examples=max(200, settings.default.max_examples))

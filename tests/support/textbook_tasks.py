@@ -99,7 +99,7 @@ def friction():
 def pendulum():
     bodies, pin = [il.Body(name, {"O": 0}) for name in ("ground", "arm")], il.Pin("O", "ground", "arm")
     swing = il.Mechanism(bodies, [pin], [il.Rotation("arm", "O")])
-    return il.simulate(swing, {"arm": il.point_mass(1.0, 0.5)}, 1.0, position=-np.pi / 6, loads=[il.Gravity(-9.81j)])
+    return il.forward_dynamics(swing, {"arm": il.point_mass(1, 0.5)}, 1, position="-30deg", loads=[il.Gravity(-9.81j)])
 
 
 def five_bar():

@@ -235,7 +235,7 @@ def inverse(
                 *separations(mechanism),
                 *(law for law in joint_frictions if law.joint not in missing.frictions),
             ]
-            forces.load_power[part] += _load_power(poses, acting)
+            forces.load_power[part] += load_power(poses, acting)
             sizes: dict[str, FloatArray] = {}
             if laws:
                 sizes, locked = efforts(poses, needed, laws, cut(side, part))
@@ -341,7 +341,8 @@ def _store_reactions(
             forces.torques[name][part] = np.where(failed, np.nan, torque)
 
 
-def _load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
+def load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
+    """Power of loads over a block of samples [W]."""
     power: RealField = 0.0
     for wrench in wrenches:
         velocity = poses.point_motion(wrench.body, wrench.at).velocity

@@ -8,10 +8,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ilmek.carpet.bill import YarnBill, yarn_bill
+from ilmek.carpet.bill import YarnBill, names_to_buy, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
-from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.usual_pile import with_counts
