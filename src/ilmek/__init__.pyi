@@ -40,6 +40,7 @@ from ilmek.api.masses import combined as combined
 from ilmek.api.masses import point_mass as point_mass
 from ilmek.api.mechanisms import four_bar as four_bar
 from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
+from ilmek.api.mechanisms import mechanism as mechanism
 from ilmek.api.mechanisms import read_mechanism as read_mechanism
 from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
