@@ -170,15 +170,21 @@ def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> 
     return tables
 
 
-def read_mechanism(path: str | Path) -> MechanismFile:
+def read_mechanism(path: str | Path, *, values: Mapping[str, str] = MappingProxyType({})) -> MechanismFile:
     """The `mechanism` and the `inertias` of a .toml or .json file; `solve` takes the result as it is.
 
-    Raises MechanismError with file, line and key.
+    values  take the place of entries of the file's table `values`, as texts with units
+    Raises MechanismError with file, line and key, and for a value that the file does not have.
 
     >>> read_mechanism("examples/jansen_leg.toml").mechanism.name
     'Jansen leg'
+    >>> press = read_mechanism("examples/slider_crank_press.toml", values={"stroke": "80mm"})
+    >>> round(press.mechanism.point("crank.A").real, 3)
+    0.04
     """
-    return mechanism_file.read_mechanism(Arguments("a mechanism", MechanismError).path("path", path))
+    given = Arguments("a mechanism", MechanismError)
+    entries = given.mapping("values", values, given.text)
+    return mechanism_file.read_mechanism(given.path("path", path), entries)
 
 
 def write_mechanism(
