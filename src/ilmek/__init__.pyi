@@ -41,6 +41,7 @@ from ilmek.api.masses import point_mass as point_mass
 from ilmek.api.mechanisms import forward_dynamics as forward_dynamics
 from ilmek.api.mechanisms import four_bar as four_bar
 from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
+from ilmek.api.mechanisms import mechanism as mechanism
 from ilmek.api.mechanisms import read_mechanism as read_mechanism
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve

@@ -260,6 +260,18 @@ CALLS: dict[str, Call] = {
         (length(0.3), length(0.06), length(0.2), length(0.23)),
         dict(branch=Count(1), points=Other({"rocker": {"E": 0.3 + 0j}}, True, NOT_A_BODY), name=FreeText("four")),
     ),
+    "mechanism": Call(
+        ilmek.mechanism,
+        (
+            Other({"ground": {"O": 0, "line": 0}, "arm": {"O": 0}, "ram": {"line": 0}}, wrong=({"arm": {"O": 0}}, 3)),
+            Other(["arm", "line"], wrong=("ground", "rm", ["arm", 3], 3)),
+        ),
+        {
+            "slides": Other((SLIDE,), wrong=(SLIDE, ("line",))),
+            "branches": Other({}, wrong=({"line": 3}, {"x": 1})),
+            "name": FreeText("press"),
+        },
+    ),
     "slider_crank": Call(
         ilmek.slider_crank,
         (length(0.06), length(0.2)),

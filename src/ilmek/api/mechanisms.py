@@ -4,6 +4,7 @@ from __future__ import annotations  # so that `help` shows the aliases
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,8 @@ from ilmek.io.mechanism_file import MechanismFile
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.joints import body_point
-from ilmek.linkage.model import Input, Mechanism, Rotation
+from ilmek.linkage.joints import GROUND, body_point
+from ilmek.linkage.model import Body, Displacement, Input, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
 from ilmek.synthesis.result import FourBarSolution
@@ -108,6 +109,57 @@ def slider_crank(
     )
 
 
+def mechanism(
+    bodies: Mapping[str, Mapping[str, Point]],
+    inputs: str | Input | Sequence[str | Input],
+    *,
+    slides: Sequence[Slide] = (),
+    branches: Mapping[str, int] = MappingProxyType({}),
+    name: str = "mechanism",
+) -> Mechanism:
+    """A mechanism from the points of its bodies [m]: a point that two bodies name is their pin, or the slide so named.
+
+    bodies    body -> points by name, in the body's frame [m]; one body is "ground"
+    inputs    a body that turns about its only pin on the ground, or a slide; else `Rotation`, `Displacement`
+    slides    `Slide` records      branches  as of `Mechanism`
+
+    Raises MechanismError for a point of three bodies, a body without one pin on the ground, and as `Mechanism`.
+
+    >>> bodies = {"ground": {"O": 0, "C": -0.2j}, "crank": {"O": 0, "A": 0.1}, "block": {"A": 0, "slot": 0}}
+    >>> bodies["lever"] = {"C": 0, "slot": 0}
+    >>> shaper = mechanism(bodies, "crank", slides=[Slide("slot", "block", "lever")], branches={"slot": +1})
+    >>> [joint.name for joint in shaper.joints], shaper.inputs
+    (['O', 'C', 'A', 'slot'], (Rotation(body='crank', about='O'),))
+    """
+    given = Arguments("a mechanism", MechanismError)
+    tables = given.mapping("bodies", bodies, lambda body, points: given.mapping(body, points, given.near_point))
+    sliding = given.sequence("slides", slides, Slide)
+    holders: dict[str, list[str]] = {}
+    for body, points in tables.items():
+        for point in points:
+            holders.setdefault(point, []).append(body)
+    pins = []
+    for point in [point for point in holders if point not in {slide.name for slide in sliding}]:
+        if len(holders[point]) > 2:
+            raise given.error(f"point {point!r} is of {', '.join(holders[point])}", allowed="two bodies at a joint")
+        if len(holders[point]) == 2:
+            pins.append(Pin(point, *holders[point]))
+
+    def driven(entry: str | Input) -> Input:
+        if not isinstance(entry, str):
+            return given.record("an input", entry, (Rotation, Displacement))
+        if entry in {slide.name for slide in sliding}:
+            return Displacement(entry)
+        about = [pin.name for pin in pins if set(pin.bodies) == {GROUND, entry}]
+        if len(about) != 1:
+            raise given.error(f"{len(about)} pins join {entry!r} and the ground", do="give a Rotation, a Displacement")
+        return Rotation(entry, about[0])
+
+    named = [inputs] if isinstance(inputs, str | Rotation | Displacement) else inputs
+    drives = [driven(entry) for entry in given.sequence("inputs", named, (str, Rotation, Displacement))]
+    return Mechanism([Body(*entry) for entry in tables.items()], (*pins, *sliding), drives, branches, name)
+
+
 def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:
     """Points by body and name [m], of the bodies of a mechanism alone."""
     tables: dict[str, dict[str, complex]] = {}
@@ -119,15 +171,21 @@ def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> 
     return tables
 
 
-def read_mechanism(path: str | Path) -> MechanismFile:
+def read_mechanism(path: str | Path, *, values: Mapping[str, str] = MappingProxyType({})) -> MechanismFile:
     """The `mechanism` and the `inertias` of a .toml or .json file; `solve` takes the result as it is.
 
-    Raises MechanismError with file, line and key.
+    values  take the place of entries of the file's table `values`, as texts with units
+    Raises MechanismError with file, line and key, and for a value that the file does not have.
 
     >>> read_mechanism("examples/jansen_leg.toml").mechanism.name
     'Jansen leg'
+    >>> press = read_mechanism("examples/slider_crank_press.toml", values={"stroke": "80mm"})
+    >>> round(press.mechanism.point("crank.A").real, 3)
+    0.04
     """
-    return mechanism_file.read_mechanism(Arguments("a mechanism", MechanismError).path("path", path))
+    given = Arguments("a mechanism", MechanismError)
+    entries = given.mapping("values", values, given.text)
+    return mechanism_file.read_mechanism(given.path("path", path), entries)
 
 
 def write_mechanism(
