@@ -10,6 +10,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.cells import CellMap
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.construction import Construction, construction_of
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
@@ -61,6 +62,7 @@ class ChartResult:
     source      the fitted picture, made small; None of a chart as input, and where it is not wanted
     whole       the same of the picture before it was cropped to the carpet's proportions; None where it was not
     ground      of the loom, where there is one
+    name        of the carpet in its order, colourway included; ""
     """
 
     order: ResolvedOrder
@@ -71,11 +73,18 @@ class ChartResult:
     source: Rgb | None = None
     whole: Rgb | None = None
     ground: GroundParams | None = None
+    name: str = ""
 
     @property
     def pile(self) -> PileParams:
         """The parameters of the pile."""
         return self.order.order.plan.pile(self.chart.quality)
+
+    @property
+    def construction(self) -> Construction:
+        """Outline, binding, flat weave and the heights of the pile."""
+        order = self.order.order
+        return construction_of(self.chart, self.bill, order.shape, order.plan)
 
     @property
     def usual_counts(self) -> bool:
@@ -104,7 +113,7 @@ class ChartResult:
         """What the printed files have besides the chart."""
         ground = self.order.order.plan.ground(self.ground)
         files = self.order.order.files
-        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang)
+        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang, self.name)
 
     @property
     def thickest(self) -> Yarn:

@@ -271,7 +271,7 @@ def rescue_text(done: PlanResult, rescue: Rescue) -> str:
     factory = rescue.plan.factory
     loom = done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else ""
     until = f"until {done.inputs.time(rescue.until):%Y-%m-%d}"
-    hours = f"{rescue.hours} h"
+    hours, later = f"{rescue.hours} h", rescue.until + HOUR * rescue.hours
     texts = {
         "put first": "put it before orders that are late anyway",
         "overtime": f"{hours} overtime a day on loom {loom} {until}",
@@ -279,6 +279,6 @@ def rescue_text(done: PlanResult, rescue: Rescue) -> str:
         "another loom": f"one more loom like {loom}, {len(factory.looms)} in all",
         "earlier start": f"start it {hours} earlier",
         "yarn at once": "get its yarn without lead time",
-        "later due date": f"agree a due date {hours} later",
+        "later due date": f"agree the due date {done.inputs.time(later):%Y-%m-%d %H:%M}, {hours} later",
     }
     return texts[rescue.kind]

@@ -11,6 +11,7 @@ import numpy as np
 from ilmek.carpet.bill import YarnBill, names_to_buy, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
+from ilmek.carpet.price_rules import FLAT, woven_in_rows
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.usual_pile import with_counts
@@ -138,12 +139,13 @@ def in_colourway(charted: ChartResult, colourway: Colourway) -> ChartResult:
 
 
 def _by_hand(charted: ChartResult, loom: WeaversLoom) -> LoomFit:
-    """The weaving time at a frame that is wide enough: all its weavers tie at once."""
+    """The weaving time at a frame that is wide enough: all its weavers work at once."""
     chart = charted.chart
     checks = (*charted.checks, at_most("width", chart.size.width, loom.width, "m", "the loom's frame"))
     failed = tuple(check for check in checks if not check.ok)
-    time = charted.bill.knots / (loom.weavers * loom.knots)
-    return LoomFit(None if failed else time, failed, finishing_steps(CostRates(), chart.size.area))
+    flat = sum(cells for _, cells in woven_in_rows(chart))
+    time = (charted.bill.knots + FLAT * flat) / (loom.weavers * loom.knots)
+    return LoomFit(None if failed else time, failed, finishing_steps(CostRates(), charted.bill.area))
 
 
 def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
@@ -156,7 +158,7 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
     failed = tuple(check for check in checks if not check.ok)
     if failed or loomed.programme is None:
         return LoomFit(None, failed)
-    finishing = finishing_steps(loom.design.params.cost, charted.chart.size.area)
+    finishing = finishing_steps(loom.design.params.cost, charted.bill.area)
     time, cost = loomed.programme.duration, loomed.cost
     return LoomFit(time, finishing=finishing, energy=0.0 if cost is None else cost.energy * time / cost.time)
 

@@ -89,6 +89,7 @@ WEAVER = {
     "legend.outline": "Legend",
     "legend.title": "Legend: {colours}, {knots} knots",
     "legend.continued": "Legend, continued",
+    "legend.outside": "outside of the shape: plain ground, which is cut away",
     "legend.knots": "knots",
     "legend.share": "share",
     "legend.length": "length [m]",

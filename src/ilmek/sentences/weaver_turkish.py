@@ -80,6 +80,7 @@ WEAVER = {
     "legend.outline": "Renkler",
     "legend.title": "Renkler: {colours}, {knots} ilmek",
     "legend.continued": "Renkler, devamı",
+    "legend.outside": "biçimin dışı: düz zemin, sonra kesilir",
     "legend.knots": "ilmek",
     "legend.share": "pay",
     "legend.length": "uzunluk [m]",

@@ -3,9 +3,11 @@
 from collections.abc import Sequence
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
+from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.mounting import TENS, Mounting
+from ilmek.io.chart.grid import hatch
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
@@ -68,6 +70,12 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         _swatch(canvas, inks, NO_KNOT, _LEFT, y)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("rows.text-plain", sign=NO_SIGN))
+    if chart.cells is not None and chart.cells.number(OUTSIDE):
+        y = _room(canvas, y, _LINE, bool(needs))
+        hatch(canvas, [(canvas.side(_LEFT, 24.0), y - 4.0, 24.0, 14.0)])
+        canvas.setFillGray(0.1)
+        canvas.setFont(TEXT, 9)
+        canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
