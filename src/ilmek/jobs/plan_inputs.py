@@ -11,6 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.carpet.bill import YarnBill, yarn_bill
+from ilmek.carpet.carving import carved_length
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
 from ilmek.carpet.creel import names_to_buy
@@ -28,7 +29,7 @@ from ilmek.jobs.existing_loom import ExistingLoom, read_existing_loom
 from ilmek.jobs.loom import LoomOrder, make_loomed
 from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
-from ilmek.jobs.weave import overlay_checks
+from ilmek.jobs.weave import overlay_checks, pile_checks
 from ilmek.jobs.wishes import Wishes
 from ilmek.loom.operations import LoomSetup
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
@@ -203,7 +204,9 @@ def _by_hand(charted: ChartResult, loom: WeaversLoom) -> LoomFit:
     checks = (*charted.checks, at_most("width", chart.size.width, loom.width, "m", "the loom's frame"))
     failed = tuple(check for check in checks if not check.ok)
     time = charted.bill.knots / (loom.weavers * loom.knots)
-    return LoomFit(None if failed else time, failed, finishing_steps(CostRates(), chart.size.area))
+    return LoomFit(
+        None if failed else time, failed, finishing_steps(CostRates(), chart.size.area, carved_length(chart))
+    )
 
 
 def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
@@ -212,11 +215,18 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
         loomed = make_loomed(LoomOrder(loom.design.params, Wishes(), existing=loom), charted)
     except IlmekError as error:
         return LoomFit(None, (must("carpet: programme", False, error.given).with_cure(error.do or error.allowed),))
-    checks = (*charted.checks, *overlay_checks(charted.chart), *loomed.checks, *loom.report.all_checks)
+    checks = (
+        *charted.checks,
+        *overlay_checks(charted.chart),
+        *pile_checks(charted.chart),
+        *loomed.checks,
+        *loom.report.all_checks,
+    )
     failed = tuple(check for check in checks if not check.ok)
     if failed or loomed.programme is None:
         return LoomFit(None, failed)
-    finishing = finishing_steps(loom.design.params.cost, charted.chart.size.area)
+    chart = charted.chart
+    finishing = finishing_steps(loom.design.params.cost, chart.size.area, carved_length(chart))
     time, cost = loomed.programme.duration, loomed.cost
     return LoomFit(time, finishing=finishing, energy=0.0 if cost is None else cost.energy * time / cost.time)
 
