@@ -22,14 +22,16 @@ def yarn_setting(order: CarpetOrder) -> dict[str, Setting]:
     return {"yarn_density": f"{ply / count} g/m"}
 
 
-def charted_for_tufts(order: CarpetOrder, quality: Quality, progress: Progress = SILENT) -> ChartResult:
-    """The chart of an order at the resolution of a machine; a picture that is a chart keeps its size."""
+def charted_for(
+    order: CarpetOrder, quality: Quality, progress: Progress = SILENT, *, noun: str = "tufting"
+) -> ChartResult:
+    """The chart of an order at the resolution of a machine or a cloth; a picture that is a chart keeps its size."""
     if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
         order = replace(order, size=make_charted(order, progress.part(0.0, 0.3)).chart.size)
     order = replace(order, quality=quality, pdf=False, files=replace(order.files, rows="none"))
     charted = make_charted(order, progress.part(0.3, 1.0))
     if charted.chart.cells is not None:
-        given = f"tufting of a carpet with {' and '.join(str(kind) for kind in charted.chart.cells.kinds)}"
+        given = f"{noun} of a carpet with {' and '.join(str(kind) for kind in charted.chart.cells.kinds)}"
         do = "leave --shape, --flat-weave and --pile out and cut the carpet afterwards, or knot it"
         raise CarpetError(given, allowed="a rectangle of one pile", do=do)
     return charted

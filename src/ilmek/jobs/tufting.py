@@ -17,7 +17,7 @@ from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.loom import make_loomed, params_for, read_loom_order
 from ilmek.jobs.making import Making
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for_tufts, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.tufting_machine import MACHINE, TuftingMachine, TuftingMachineParams
 from ilmek.machines.tufting_machine.params import BY_NEEDLE, SCROLLS
@@ -176,7 +176,7 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
     """The chart with the yarns that it uses first, and notes; colours left open are at most those of the creel."""
     params, creel = tufting.params, tufting.params.pattern.creel
     quality = Quality(1 / params.gauge, params.stitch_rate)
-    charted = charted_for_tufts(order, quality, progress.part(0.0, 0.5))
+    charted = charted_for(order, quality, progress.part(0.0, 0.5))
     notes: tuple[str, ...] = ()
     if charted.chart.colours > creel > 1 and order.palette.colours is None and order.yarns is None:
         taken = counted(charted.chart.colours, "colour")
@@ -184,7 +184,7 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
             f"the picture has {taken}, the creel {creel}: drawn with these; set --colours or --tufting pattern.creel",
         )
         order = replace(order, palette=replace(order.palette, colours=creel))
-        charted = charted_for_tufts(order, quality, progress.part(0.5, 1.0))
+        charted = charted_for(order, quality, progress.part(0.5, 1.0))
     return replace(charted, chart=used_first(charted.chart)), notes
 
 
