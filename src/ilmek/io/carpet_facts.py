@@ -103,11 +103,11 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
         red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
         price = None if given["price"].value is None else given["price"].number()
         count = None if given["metric_count"].value is None else given["metric_count"].number()
-        numbers = count, given["ply"].whole(1, MOST_YARNS), price
+        ply = given["ply"].whole(1, MOST_YARNS)
         place = None if given["number"].value is None else given["number"].whole(1, MOST_YARNS)
         material = None if given["material"].value is None else given["material"].one_of(*MATERIALS)
         colours = (red, green, blue), (lightness, a, b)
-        yarn_entries.append(Yarn(given["name"].text(least=1), *colours, *numbers, place, material))
+        yarn_entries.append(Yarn(given["name"].text(least=1), *colours, count, ply, price, place, material))
     records = [
         {
             "name": yarn.name,

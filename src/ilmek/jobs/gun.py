@@ -105,7 +105,7 @@ def weave_by_gun(
 def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progress = SILENT) -> GunResult:
     """The plan of a carpet by a gun; nothing is written."""
     per_metre = CELLS / gun.params.row_spacing
-    charted = charted_for(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6))
+    charted = charted_for(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6), noun="tufting by a gun")
     chart = charted.chart
     size = (chart.columns / per_metre, chart.rows / per_metre)
     params, rows = gun.params, progress.part(0.6, 1.0)
