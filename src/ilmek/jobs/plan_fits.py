@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.carpet.bill import YarnBill, names_to_buy, yarn_bill
+from ilmek.carpet.carving import carved_length
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
 from ilmek.carpet.price_rules import FLAT, woven_in_rows
@@ -24,7 +25,7 @@ from ilmek.jobs.existing_loom import ExistingLoom, read_existing_loom
 from ilmek.jobs.loom import LoomOrder, make_loomed
 from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
-from ilmek.jobs.weave import overlay_checks
+from ilmek.jobs.weave import overlay_checks, pile_checks
 from ilmek.jobs.wishes import Wishes
 from ilmek.loom.operations import LoomSetup
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
@@ -145,7 +146,9 @@ def _by_hand(charted: ChartResult, loom: WeaversLoom) -> LoomFit:
     failed = tuple(check for check in checks if not check.ok)
     flat = sum(cells for _, cells in woven_in_rows(chart))
     time = (charted.bill.knots + FLAT * flat) / (loom.weavers * loom.knots)
-    return LoomFit(None if failed else time, failed, finishing_steps(CostRates(), charted.bill.area))
+    return LoomFit(
+        None if failed else time, failed, finishing_steps(CostRates(), charted.bill.area, carved_length(chart))
+    )
 
 
 def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
@@ -154,11 +157,12 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
         loomed = make_loomed(LoomOrder(loom.design.params, Wishes(), existing=loom), charted)
     except IlmekError as error:
         return LoomFit(None, (must("carpet: programme", False, error.given).with_cure(error.do or error.allowed),))
-    checks = (*charted.checks, *overlay_checks(charted.chart), *loomed.checks, *loom.report.all_checks)
+    chart = charted.chart
+    checks = (*charted.checks, *overlay_checks(chart), *pile_checks(chart), *loomed.checks, *loom.report.all_checks)
     failed = tuple(check for check in checks if not check.ok)
     if failed or loomed.programme is None:
         return LoomFit(None, failed)
-    finishing = finishing_steps(loom.design.params.cost, charted.bill.area)
+    finishing = finishing_steps(loom.design.params.cost, charted.bill.area, carved_length(chart))
     time, cost = loomed.programme.duration, loomed.cost
     return LoomFit(time, finishing=finishing, energy=0.0 if cost is None else cost.energy * time / cost.time)
 

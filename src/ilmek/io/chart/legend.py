@@ -58,7 +58,9 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
-    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
+    title, *notes = printing.legend or (
+        Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total)),
+    )
     y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))
@@ -76,6 +78,11 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         canvas.setFillGray(0.1)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
+    for note in notes:
+        y = _room(canvas, y, _LINE, bool(needs))
+        canvas.setFont(TEXT, 9)
+        canvas.setFillGray(0.1)
+        canvas.write(_LEFT, y, note)
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
