@@ -31,7 +31,7 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
   const range = useMemo(() => rangeOf(animation), [animation]);
   const box = useMemo(() => extent ?? reachOf(animation), [animation, extent]);
   const view = useSignal<View>(WHOLE);
-  const angle = isAngle(animation.drive.shown_unit);
+  const angle = isAngle(animation.drive.unit);
   const start = animation.at[animation.start] ?? range.low;
   const inside = () =>
     within(cursor.at.value ?? start, range.low, range.high, angle) ?? clamp(cursor.at.value ?? start, range);
@@ -39,14 +39,7 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
     (context, width, high) => {
       const map = mapOf(box, view.peek(), width, high);
       paintDrawing(context, { ...animation.still, dots: [] }, map);
-      paintScaleBar(
-        context,
-        map,
-        parseUnit(animation.still.shown_unit)?.factor ?? 1,
-        animation.still.shown_unit,
-        width,
-        high,
-      );
+      paintScaleBar(context, map, parseUnit(animation.still.unit)?.factor ?? 1, animation.still.unit, width, high);
     },
     [animation, box],
     [view],
@@ -113,11 +106,11 @@ function Controls({ animation, cursor, range, at, autoplay }: ControlsProps) {
         value={at}
         min={range.low}
         max={range.high}
-        step={keyStep(range.low, range.high, animation.drive.shown_unit) / 4}
-        text={formatQuantity(at, animation.drive.shown_unit)}
+        step={keyStep(range.low, range.high, animation.drive.unit) / 4}
+        text={formatQuantity(at, animation.drive.unit)}
         onInput={(to) => moveTo(cursor, to)}
       />
-      <output>{formatQuantity(at, animation.drive.shown_unit)}</output>
+      <output>{formatQuantity(at, animation.drive.unit)}</output>
       <select
         class="ui-input"
         aria-label={t("figure.speed")}
@@ -170,7 +163,7 @@ function Readings({ animation, at }: { animation: ShownAnimation; at: number }) 
           <dd>
             {formatQuantity(
               quiet(between(reading.values, frame, animation.at.length, 1, 0), greatestOf([reading.values])),
-              reading.shown_unit,
+              reading.unit,
             )}
           </dd>
         </div>
