@@ -161,7 +161,7 @@ def pick_length(cells: int, joins: int, params: KilimParams, ground: GroundParam
     return across + math.pi * (warp + weft) / 2 + allowance * joins
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class KilimWork:
     """What is woven: wefts of a chart, and the time for them.
 

@@ -16,6 +16,9 @@ MONEY = 10_000
 HOUR = 60
 """Minutes of an hour."""
 
+ON_LOOM = -1
+"""In the place of a job: the carpet that is on a loom before it is available."""
+
 
 @dataclass(frozen=True, slots=True)
 class Loom:
@@ -121,8 +124,8 @@ class Factory:
         return on.cost_of(on.dressing_time(same=same) + self.jobs[job].weaving[loom] + on.doffing)
 
     def same_setup(self, loom: int, before: int, job: int) -> bool:
-        """Whether a job has the setup of the one before it on a loom; -1: of the carpet that is on the loom."""
-        return (self.looms[loom].setup if before < 0 else self.jobs[before].setup) == self.jobs[job].setup
+        """Whether a job has the setup of the one before it on a loom, which may be ON_LOOM."""
+        return (self.looms[loom].setup if before == ON_LOOM else self.jobs[before].setup) == self.jobs[job].setup
 
     def like(self, job: int) -> bool:
         """Whether there is another job of its setup, or a carpet of it on a loom."""
@@ -212,7 +215,7 @@ def left_shifted(factory: Factory, sequences: Sequence[Sequence[int]], floors: M
     """
     carpets: dict[int, PlannedCarpet] = {}
     for loom, sequence in enumerate(sequences):
-        free, before = 0, -1
+        free, before = 0, ON_LOOM
         for job in sequence:
             same = factory.same_setup(loom, before, job)
             carpets[job] = carpet_on(factory, job, loom, max(free, floors.get(job, 0)), same=same)

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ilmek.factory.axes import WorkAxes, gaps_after, time_before, work_axes
 from ilmek.factory.model import (
     HOUR,
+    ON_LOOM,
     Factory,
     FactoryPlan,
     PlannedCarpet,
@@ -32,10 +33,6 @@ from ilmek.records import record
 
 if TYPE_CHECKING:
     from ortools.sat.python.cp_model import CpSolver, IntVar
-
-
-ON_LOOM = -1
-"""In the place of a job: the carpet that is on a loom before it is available."""
 
 
 @record
