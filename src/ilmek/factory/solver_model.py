@@ -344,12 +344,11 @@ class FactoryModel:
             self.model.add_hint(follows, (first, then) in pairs and where[then].loom == loom)
         for size, first, then, group, loom in self.sizes:
             there = where[then].loom == loom and (first == then or (first, then) in pairs)
-            begin = self.axes[group].weaving.work(self.factory.looms[loom].available)
-            if first == then:
-                length = values[then, group]["woven_end"] - values[then, group]["woven_start"]
-            else:
-                free = begin if first == ON_LOOM else values[first, group]["woven_end"]
-                length = values[then, group]["woven_start"] - free
+            begin, end = (values[then, group][name] for name in ("woven_start", "woven_end"))
+            if first != then:
+                free = self.axes[group].weaving.work(self.factory.looms[loom].available)
+                begin, end = free if first == ON_LOOM else values[first, group]["woven_end"], begin
+            length = end - begin
             self.model.add_hint(size, length if there else 0)
 
     def _values(self, job: int, group: int, one: PlannedCarpet) -> dict[str, int]:
