@@ -8,6 +8,8 @@ import pickle
 import pydoc
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -257,6 +259,17 @@ def test_a_wrong_value_is_an_error_of_the_package(name: str) -> None:
             assert isinstance(given, Refusal), f"{note}: accepted as {given!r}"
             assert "\n" not in given.message, given.message
             assert " object at 0x" not in given.message, given.message
+
+
+@pytest.mark.parametrize("name", [name for name, call in CALLS.items() if not call.long])
+def test_what_is_returned_goes_to_another_process(name: str) -> None:
+    call = CALLS[name]
+    made = outcome(call, [plain(kind) for kind in call.positional], {key: plain(k) for key, k in call.named.items()})
+    copies = [pickle.loads(pickle.dumps(made))]
+    if find_spec("distributed"):
+        sent = import_module("distributed.protocol")
+        copies.append(sent.deserialize(*sent.serialize(made)))
+    assert all(same(made, again) and repr(made) == repr(again) for again in copies)
 
 
 NUMBERS = st.none() | st.booleans() | st.integers() | st.floats() | st.complex_numbers() | st.text(max_size=8)

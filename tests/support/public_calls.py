@@ -14,6 +14,7 @@ import numpy as np
 from small_programme import small_programme
 
 import ilmek
+from ilmek.cams import one_mass
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.sizes import parse_size
 from ilmek.carpet.yarn import Yarn
@@ -721,6 +722,10 @@ CALLS: dict[str, Call] = {
     "Report[name]": Call(lambda name: report()[name], (Named("prime_radius"),)),
     "reproduce": Call(ilmek.reproduce, (Named("beat-up"),), dict(progress=Other(ilmek.Progress())), long=True),
     "units": Call(ilmek.units.parse_quantity, (FreeText("60mm"), FreeText("m"))),
+    "PlateCam.response": Call(
+        lambda follower, speed: cam().response(follower, speed),
+        (Other(one_mass(2.0, 2e5, 0.05), wrong=(3.0,)), Quantity(15.0, "rad/s", 16.0)),
+    ),
     "Motion.point": Call(lambda body, point: motion().point(body, point), (Named("rocker"), Named("E"))),
     "Motion.angle": Call(lambda body: motion().angle(body), (Named("rocker"),)),
     "Motion.omega": Call(lambda body: motion().omega(body), (Named("rocker"),)),

@@ -190,8 +190,8 @@ class GeneralEquation:
             return self
         seconds = np.stack([second_rate(terms.poses, terms.poses.joints[law.joint]) for law in self.laws[: self.dry]])
 
-        def starts(signs: Sequence[float]) -> FloatArray:
-            acceleration, _ = self.moved(terms, efforts, signs)
+        def starts(signs: FloatArray) -> FloatArray:
+            acceleration, _ = self.moved(terms, efforts, signs.tolist())
             return seconds[:, 0] + (seconds[:, 1:] - seconds[:, :1]) @ acceleration
 
         held = np.array(self.signs)

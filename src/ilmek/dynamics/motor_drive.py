@@ -8,6 +8,7 @@ M_0. The rounded characteristic is assumed by this project.                  [li
 """
 
 import math
+from contextlib import suppress
 
 from ilmek.arguments import Arguments
 from ilmek.errors import MechanismError, UnitError
@@ -40,8 +41,7 @@ class MotorDrive:
     sharp: bool = False
 
     def __post_init__(self) -> None:
-        slides = isinstance(self.effort, str) and _is_force(self.effort)
-        for name, unit in (_SLIDING if slides else _TURNING).items():
+        for name, unit in (_SLIDING if _is_force(self.effort) else _TURNING).items():
             value = getattr(self, name)
             if value is not None or name != "speed":
                 object.__setattr__(self, name, _GIVEN.number(name, value, unit))
@@ -70,10 +70,11 @@ _TURNING = {"effort": "N*m", "speed": "rad/s", "slip": "", "inertia": "kg*m^2"}
 _SLIDING = {"effort": "N", "speed": "m/s", "slip": "", "inertia": "kg"}
 
 
-def _is_force(text: str) -> bool:
-    """Whether a text is a force: the motor drives a sliding input."""
-    try:
-        parse_quantity(text, "N")
-    except UnitError:
+def _is_force(effort: object) -> bool:
+    """Whether an effort is a force as a text: the motor drives a sliding input."""
+    if not isinstance(effort, str):
         return False
-    return True
+    with suppress(UnitError):
+        parse_quantity(effort, "N")
+        return True
+    return False

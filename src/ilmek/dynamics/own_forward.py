@@ -85,9 +85,10 @@ class OwnForward:
 
     @computed("", "events of the forward run: name, time [s], position and speed of the input [SI]", shown=False)
     def forward_events(self) -> list[dict[str, str | float]]:
+        names = ("name", "time", "position", "speed")
         return [
-            {"name": event.name, "time": event.time, "position": event.state.position, "speed": event.state.speed}
-            for event in self.run.events
+            dict(zip(names, (one.name, one.time, float(one.state.position), float(one.state.speed)), strict=True))
+            for one in self.run.events
         ]
 
     @computed("N", "greatest force of each pin in the forward run", shown=False)
