@@ -278,7 +278,11 @@ CALLS: dict[str, Call] = {
         (length(0.06), length(0.2)),
         dict(offset=length(0.01), branch=Count(1), points=Other({}, True, NOT_A_BODY), name=FreeText("slider")),
     ),
-    "read_mechanism": Call(ilmek.read_mechanism, (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),)),
+    "read_mechanism": Call(
+        ilmek.read_mechanism,
+        (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),),
+        {"values": Other({}, wrong=({"stroke": "1mm"}, {1: "1mm"}, {"stroke": 3}))},
+    ),
     "write_mechanism": Call(
         lambda name, mechanism, inertias: ilmek.write_mechanism(new_path(name), mechanism, inertias),
         (Other("a.toml", wrong=("a.txt", "a/b.toml", "")), Other(four_bar()), Other(INERTIAS, True, WRONG_INERTIAS)),

@@ -144,7 +144,7 @@ def mechanism(
 
     def driven(entry: str | Input) -> Input:
         if not isinstance(entry, str):
-            return given.record("an input", entry, (Rotation, Displacement))
+            return entry
         if entry in {slide.name for slide in sliding}:
             return Displacement(entry)
         about = [pin.name for pin in pins if set(pin.bodies) == {GROUND, entry}]
@@ -153,8 +153,8 @@ def mechanism(
         return Rotation(entry, about[0])
 
     named = [inputs] if isinstance(inputs, str | Rotation | Displacement) else inputs
-    drives = [driven(entry) for entry in given.sequence("inputs", named, (str, Rotation, Displacement))]
-    return Mechanism([Body(*entry) for entry in tables.items()], (*pins, *sliding), drives, branches, name)
+    drives = tuple(driven(entry) for entry in given.sequence("inputs", named, (str, Rotation, Displacement)))
+    return Mechanism(tuple(Body(*entry) for entry in tables.items()), (*pins, *sliding), drives, branches, name)
 
 
 def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:

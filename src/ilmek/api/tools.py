@@ -126,6 +126,7 @@ TOOLS: Mapping[str, Tool] = {
         {
             **_CARPET,
             "quality": ("string", '"25x25/dm"'),
+            "knot": ("string", "symmetric, asymmetric"),
             "heads": ("integer", "knotting heads"),
             "aim": ("string", "cost, price, time"),
             "loom": ("object", TEXTS),
