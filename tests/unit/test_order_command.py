@@ -22,7 +22,7 @@ import ilmek
 from ilmek.api.carpets import read_chart
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
-from ilmek.carpet.construction import Construction, construction_of
+from ilmek.carpet.construction import CarpetConstruction, construction_of
 from ilmek.carpet.price_rules import WageRules, woven_in_rows
 from ilmek.carpet.shape import ShapeParams, shaped
 from ilmek.carpet.strike_off import part_of, strike_off_window
@@ -269,7 +269,7 @@ def test_construction_is_that_of_closed_forms() -> None:
     stripes = np.indices((100, 100))[0] // 10 % 2
     chart = Chart.of(stripes, yarns, "50x50cm", "20x20/dm", "symmetric")
 
-    def found_of(shape: ShapeParams) -> tuple[Chart, Construction]:
+    def found_of(shape: ShapeParams) -> tuple[Chart, CarpetConstruction]:
         made = shaped(chart, shape)
         return made, construction_of(made, made.bill(), shape, YarnPlanParams())
 

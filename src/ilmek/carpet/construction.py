@@ -23,7 +23,7 @@ class PileOfCarpet:
 
 
 @record
-class Construction:
+class CarpetConstruction:
     """The construction of a carpet.
 
     shape    RECTANGLE, a name of `carpet.shape.SHAPES`, or FREE      edge  length that is cut and bound [m]; 0: none
@@ -56,7 +56,7 @@ class Construction:
         }
 
 
-def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: YarnPlanParams) -> Construction:
+def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: YarnPlanParams) -> CarpetConstruction:
     """The construction of a carpet by its chart.
 
     >>> from ilmek import read_yarns
@@ -80,7 +80,7 @@ def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: Yarn
         PileOfCarpet(usual if kind.height is None else kind.height, kind.loop, tied.total)
         for kind, tied in chart.tied_by_kind
     )
-    return Construction(
+    return CarpetConstruction(
         RECTANGLE if not cut else shape.shape if shape.named and shape.shape else FREE,
         bill.edge,
         plan.binding if bound else "",

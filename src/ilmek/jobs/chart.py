@@ -11,7 +11,7 @@ from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.carving import carved_length
 from ilmek.carpet.cells import PILE, CellMap
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.construction import Construction, construction_of
+from ilmek.carpet.construction import CarpetConstruction, construction_of
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
@@ -82,7 +82,7 @@ class ChartResult:
         return self.order.order.plan.pile(self.chart.quality)
 
     @property
-    def construction(self) -> Construction:
+    def construction(self) -> CarpetConstruction:
         """Outline, binding, flat weave and the heights of the pile."""
         order = self.order.order
         return construction_of(self.chart, self.bill, order.shape, order.plan)

@@ -3,7 +3,7 @@
 from decimal import Decimal
 from pathlib import Path
 
-from ilmek.carpet.construction import Construction
+from ilmek.carpet.construction import CarpetConstruction
 from ilmek.io.chart.legend import thousands
 from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file, quality_of, size_of
@@ -132,7 +132,7 @@ def carpet_facts(carpet: OfferedCarpet) -> list[tuple[str, str]]:
     ]
 
 
-def outline_facts(made: Construction) -> list[tuple[str, str]]:
+def outline_facts(made: CarpetConstruction) -> list[tuple[str, str]]:
     """Shape and kilim ends of a carpet in words."""
     shape = (Sentence("order.shape"), Sentence(f"order.shape-{made.shape}"))
     lower, upper = (format_number(round(end / cm, 1)) for end in made.ends)
@@ -140,7 +140,7 @@ def outline_facts(made: Construction) -> list[tuple[str, str]]:
     return [shape, ends] if any(made.ends) else [shape]
 
 
-def construction_facts(made: Construction) -> list[tuple[str, str]]:
+def construction_facts(made: CarpetConstruction) -> list[tuple[str, str]]:
     """Outline, edge, flat weave and piles of a carpet in words."""
     facts = outline_facts(made)
     if made.edge:
