@@ -73,6 +73,7 @@ class Border:
     corner  picture of the upper left corner; default: the tile, reflected at the diagonal
     alternate  the tile is two motifs that alternate: a side begins and ends with the first, the corner is the second
     adjust  the motifs of a side are made a little longer until they fill it
+    pile    of its knots: a height, loop or both; "": as the carpet has it
     """
 
     width: Breadth | None = None
@@ -83,6 +84,7 @@ class Border:
     corner: Path | None = None
     alternate: bool = False
     adjust: bool = False
+    pile: str = ""
     where: str = ""
 
 
@@ -95,6 +97,7 @@ class Motif:
     mirror       further copies by reflection, of MIRRORS; "": none
     width, length  [knots]; default: its own pixels
     transparent  colour of its pixels that leave the field as it is; "": none
+    pile         of its knots, as of a border
     """
 
     picture: Path
@@ -103,6 +106,7 @@ class Motif:
     width: int | None = None
     length: int | None = None
     transparent: str = ""
+    pile: str = ""
     where: str = ""
 
 
@@ -186,6 +190,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
                 corner=path(border.corner),
                 alternate=border.alternate,
                 adjust=border.adjust,
+                pile=border.pile,
             )
             for border in recipe.borders
         ]
@@ -198,6 +203,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
                 width=motif.width,
                 length=motif.length,
                 transparent=motif.transparent,
+                pile=motif.pile,
             )
             for motif in recipe.motifs
         ]
