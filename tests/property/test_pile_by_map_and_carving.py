@@ -120,6 +120,34 @@ def test_a_map_gives_each_cell_the_pile_of_most_of_its_grey(tmp_path: Path) -> N
     assert counts == {kind: np.count_nonzero(levels == level) for level, kind in enumerate(wanted)}
 
 
+def test_a_border_and_a_motif_of_a_recipe_have_piles_of_their_own(tmp_path: Path) -> None:
+    y, x = np.mgrid[0:12, 0:12] - 5.5
+    disc_of = np.hypot(x, y) <= 5
+    Image.fromarray(np.where(disc_of[..., None], (150, 30, 40), 255).astype(np.uint8)).save(tmp_path / "disc.png")
+    lines = [
+        'size = "16x20cm"', 'quality = "25x25/dm"', 'yarns = "wool"', 'plain = "ivory"', "[[border]]",
+        "width = 4", 'yarn = "indigo navy"', 'pile = "6mm loop"', "[[motif]]", 'picture = "disc.png"',
+        'transparent = "#ffffff"', 'pile = "14mm"',
+    ]  # fmt: skip
+    (tmp_path / "carpet.toml").write_text("\n".join(lines), encoding="utf-8")
+    order = ["chart", str(tmp_path / "carpet.toml"), "--out", str(tmp_path / "out"), "--save-recipe"]
+    made = CliRunner().invoke(main, [*order, str(tmp_path / "again.toml")])
+    assert made.exit_code == 0, made.output
+    cells = read_chart_png(tmp_path / "out" / "chart.png").cells
+    assert cells is not None
+    wanted = np.zeros((50, 40))
+    wanted[:4] = wanted[-4:] = wanted[:, :4] = wanted[:, -4:] = 6e-3
+    wanted[19:31, 14:26][disc_of] = 14e-3
+    assert np.array_equal(np.array([kind.height or 0 for kind in cells.kinds])[cells.index], wanted)
+    assert np.array_equal(np.array([kind.loop for kind in cells.kinds])[cells.index], wanted == 6e-3)
+    again = (tmp_path / "again.toml").read_text(encoding="utf-8")
+    assert ('pile = "6mm loop"' in again, 'pile = "14mm"' in again) == (True, True)
+    (tmp_path / "carpet.toml").write_text("\n".join(lines).replace("14mm", "high"), encoding="utf-8")
+    refused = CliRunner().invoke(main, order[:2])
+    assert (refused.exit_code, "Traceback" in refused.output) == (2, False)
+    assert "line 9" in " ".join(refused.output.split())
+
+
 def test_silk_among_wool_has_its_own_count_price_and_thickness(tmp_path: Path) -> None:
     lines = ["name,srgb,nm,ply,material", "Ground,#802020,1.3,2,", "Light,#f0e8d0,4,1,silk"]
     (tmp_path / "yarns.csv").write_text("\n".join(lines), encoding="utf-8")

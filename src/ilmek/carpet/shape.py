@@ -139,7 +139,7 @@ class ShapeParams(Params):
     @property
     def levels(self) -> tuple[CellKind, ...]:
         """The piles of the map, from black to white."""
-        return tuple(_pile_kind(part.strip()) for part in self.pile_levels.split(","))
+        return tuple(pile_kind(part.strip()) for part in self.pile_levels.split(","))
 
 
 def plain_areas(text: str | None) -> tuple[tuple[int, int, int | None, int | None], ...]:
@@ -172,12 +172,16 @@ def pile_kinds(text: str | None) -> dict[str, CellKind]:
         if not name or name in kinds:
             given = f"two piles of {name}" if name else f"pile {shortened(pile)!r} has no yarn"
             raise ParameterError(given, allowed="a yarn of the list, its height, and loop", do="write Red=6mm")
-        kinds[name] = _pile_kind(pile)
+        kinds[name] = pile_kind(pile)
     return kinds
 
 
-def _pile_kind(text: str) -> CellKind:
-    """The kind of the knots of a pile: its height, loop or cut. Raises ParameterError."""
+def pile_kind(text: str) -> CellKind:
+    """The kind of the knots of a pile: its height, loop or cut. Raises ParameterError.
+
+    >>> str(pile_kind("6mm loop"))
+    'pile 6mm loop, 6 mm, loop'
+    """
     found = _PILE.fullmatch(text)
     if found is None:
         given = f"pile {shortened(text)!r} cannot be read"

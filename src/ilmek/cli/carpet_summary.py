@@ -45,7 +45,8 @@ def cells_in_words(charted: ChartResult) -> str:
 
 def carving_pair(charted: ChartResult) -> list[tuple[str, str]]:
     """Length and groove of the carved lines, and the yarn that is cut away; none for a carpet without them."""
-    carving = charted.chart.cells and charted.chart.cells.carving
+    cells = charted.chart.cells
+    carving = None if cells is None else cells.carving
     if carving is None:
         return []
     length, mass = carved_length(charted.chart), sum(need.carved for need in charted.bill.pile)

@@ -206,7 +206,8 @@ def loop_heights(chart: Chart, params: TuftingMachineParams) -> FloatArray:
     cells = chart.cells
     if cells is None:
         return np.full(chart.knots.shape, params.pile_height)
-    return np.array([params.pile_height if kind.height is None else kind.height for kind in cells.kinds])[cells.index]
+    of_kinds = np.array([params.pile_height if kind.height is None else kind.height for kind in cells.kinds])
+    return np.asarray(of_kinds[cells.index])
 
 
 def _piles(chart: Chart, params: TuftingMachineParams) -> dict[str, Setting]:

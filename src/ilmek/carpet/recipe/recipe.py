@@ -74,6 +74,7 @@ class Border:
     corner  picture of the upper left corner; default: the tile, reflected at the diagonal
     alternate  the tile is two motifs that alternate: a side begins and ends with the first, the corner is the second
     adjust  the motifs of a side are made a little longer until they fill it
+    pile    of its knots: a height, loop or both; "": as the carpet has it
     """
 
     width: Breadth | None = None
@@ -84,6 +85,7 @@ class Border:
     corner: Path | None = None
     alternate: bool = False
     adjust: bool = False
+    pile: str = ""
     where: str = ""
 
 
@@ -96,6 +98,7 @@ class Motif:
     mirror       further copies by reflection, of MIRRORS; "": none
     width, length  [knots]; default: its own pixels
     transparent  colour of its pixels that leave the field as it is; "": none
+    pile         of its knots, as of a border
     """
 
     picture: Path
@@ -104,6 +107,7 @@ class Motif:
     width: int | None = None
     length: int | None = None
     transparent: str = ""
+    pile: str = ""
     where: str = ""
 
 
@@ -187,6 +191,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> JsonObject:
                 corner=path(border.corner),
                 alternate=border.alternate,
                 adjust=border.adjust,
+                pile=border.pile,
             )
             for border in recipe.borders
         ]
@@ -199,6 +204,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> JsonObject:
                 width=motif.width,
                 length=motif.length,
                 transparent=motif.transparent,
+                pile=motif.pile,
             )
             for motif in recipe.motifs
         ]
