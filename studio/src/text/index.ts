@@ -90,11 +90,18 @@ export function formatNumber(value: number, digits = 4): string {
   if (format === undefined) {
     format = new Intl.NumberFormat(chosen.value, {
       maximumSignificantDigits: 15,
-      notation: scientific ? "scientific" : "standard",
+      notation: scientific ? "engineering" : "standard",
     });
     formats.set(key, format);
   }
-  return format.format(rounded).replaceAll("-", "−");
+  const written = format.format(rounded).replaceAll("-", "−");
+  return scientific
+    ? written.replace(/E(.+)$/, (_, power: string) => `·10${[...power].map(raised).join("")}`)
+    : written;
+}
+
+function raised(sign: string): string {
+  return "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(sign)] ?? "⁻";
 }
 
 /** A time span in words: "2 h 5 min", "40 s". */

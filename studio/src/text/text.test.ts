@@ -58,9 +58,9 @@ describe("every text", () => {
 
 describe("t", () => {
   it("fills in values, numbers as the language writes them", async () => {
-    expect(t("ui.checksFail", { failed: 2, count: 12345 })).toBe("2 of 12,345 checks fail");
+    expect(t("machine.sensitivityWork", { done: 2, all: 12345 })).toBe("2 of 12,345 parameters moved");
     await setLanguage("tr");
-    expect(t("ui.checksFail", { failed: 2, count: 12345 })).toBe("12.345 denetimden 2 tanesi sağlanmıyor");
+    expect(t("machine.sensitivityWork", { done: 2, all: 12345 })).toBe("12.345 parametreden 2 tanesi oynatıldı");
     expect(document.documentElement.lang).toBe("tr");
   });
 });
@@ -70,7 +70,7 @@ describe("numbers", () => {
     expect(formatNumber(59.7375)).toBe("59.74");
     expect(formatNumber(-0.5)).toBe("−0.5");
     expect(formatNumber(135000)).toBe("135,000");
-    expect(formatNumber(0.00002)).toBe("2E−5");
+    expect(formatNumber(0.00002)).toBe("20·10⁻⁶");
     expect(formatNumber(Number.NaN)).toBe("–");
     await setLanguage("tr");
     expect(formatNumber(59.7375)).toBe("59,74");

@@ -32,6 +32,7 @@ export default {
   noProducts: "Nothing is written of this file by itself.",
   write: "Write",
   writeAll: "Write everything ({count})",
+  search: "Search the files",
   writeAgain: "Write again",
   command: "Command line and Python",
   writing: "{title} is being written",

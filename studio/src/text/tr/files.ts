@@ -34,6 +34,7 @@ export default {
   noProducts: "Bu dosyadan tek başına bir şey yazılmaz.",
   write: "Yaz",
   writeAll: "Hepsini yaz ({count})",
+  search: "Dosyalarda ara",
   writeAgain: "Yeniden yaz",
   command: "Komut satırı ve Python",
   writing: "{title} yazılıyor",

@@ -1,10 +1,10 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { address, goTo, type ViewProps } from "../../app/routes";
+import { goTo, type ViewProps } from "../../app/routes";
 import { remember } from "../../app/settings";
-import { FileCommand, project, refreshProject, SaveState, useDocument } from "../../project";
-import { formatNumber, t } from "../../text";
-import { Button, Select, Split, Tabs } from "../../ui";
+import { project, refreshProject, useDocument, ViewHead } from "../../project";
+import { t } from "../../text";
+import { Button, Select, Split, Tabs, Verdict } from "../../ui";
 import { Bill } from "./bill";
 import { ChartCanvas } from "./chart-canvas";
 import { Edits } from "./edits";
@@ -60,12 +60,16 @@ function RecipeView({ path }: { path: string }) {
       onDragLeave={() => setDragging(false)}
       onDrop={drop}
     >
-      <header class="ui-view-head carpet-head">
-        <h1>{t("carpet.title")}</h1>
+      <ViewHead
+        title={t("carpet.title")}
+        document={document}
+        verdict={<Verdict checks={model.chart.value?.about.checks ?? []} />}
+        command={{ kind: "carpet", path }}
+      >
         <RecipeChoice path={path} />
-        <SaveState document={document as never} textAddress={address("files", document.path)} />
-        <Timing model={model} />
+        <Size model={model} />
         <Button
+          icon="loom"
           disabled={!isRead}
           pressed={model.weaving.value}
           onClick={() => {
@@ -74,7 +78,7 @@ function RecipeView({ path }: { path: string }) {
         >
           {t("carpet.weaver")}
         </Button>
-      </header>
+      </ViewHead>
       <Problem model={model} />
       {!isRead ? (
         <NoRecipe model={model} isMissing={isMissing} />
@@ -145,7 +149,6 @@ function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) =
         {tab === "edits" && <Edits model={model} />}
         {tab === "bill" && <Bill model={model} onWeave={onWeave} />}
       </Tabs>
-      <FileCommand kind="carpet" path={model.path} />
     </div>
   );
 }
@@ -164,15 +167,14 @@ function RecipeChoice({ path }: { path: string }) {
   );
 }
 
-function Timing({ model }: { model: CarpetModel }) {
+/** Knots of the chart; whether it is a draft. */
+function Size({ model }: { model: CarpetModel }) {
   const chart = model.chart.value;
   if (chart === null) return null;
   const { rows, columns, draft } = chart.about;
-  const waited = formatNumber(model.waited.value, 3);
-  const kind = draft ? t("carpet.draft") : t("carpet.exactChart");
   return (
     <p class="carpet-timing" aria-live="off">
-      {model.busy.value ? t("carpet.making") : t("carpet.timing", { rows, columns, kind, waited })}
+      {model.busy.value ? t("carpet.making") : t(draft ? "carpet.draft" : "carpet.charted", { rows, columns })}
     </p>
   );
 }

@@ -3,7 +3,7 @@ import type { MachineCyclograms } from "../../api/messages";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
+import { filesOf, freePath, newFile, project, refreshProject, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button, Dialog, Progress, Select, toast } from "../../ui";
 import { CyclogramEditor } from "./editor";
@@ -58,12 +58,11 @@ export default function Cyclogram({ name }: ViewProps) {
   return (
     <div class="cyclogram">
       {stem === "" || stem.includes(":") ? (
-        <div class="ui-stack">
-          <h1>{t("cyclogram.title")}</h1>
+        <>
+          <ViewHead title={t("cyclogram.title")}>{head}</ViewHead>
           {stem === "" && <p>{project.value === null ? t("app.loading") : t("cyclogram.noFile")}</p>}
           {stem !== "" && <Import key={stem} source={stem} />}
-          <div class="ui-row">{head}</div>
-        </div>
+        </>
       ) : (
         <CyclogramEditor key={stem} path={`${FOLDER}/${stem}.toml`} head={head} />
       )}

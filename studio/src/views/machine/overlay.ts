@@ -1,4 +1,4 @@
-/** The curves of B, dashed over those of A. */
+/** The curves of B, in colours and marks of their own, dashed over those of A. */
 import type { ShownFigure } from "../../api/messages";
 
 /** The figures of A with the curves of the figures of B that have the same name and the same axes. */
@@ -7,7 +7,10 @@ export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): 
   return a.map((figure) => {
     const [mine, theirs] = [figure.plot, others.get(figure.name)?.plot];
     if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.shown_unit !== theirs.y.shown_unit) return figure;
-    const dashed = theirs.curves.map((curve) => ({ ...curve, label: `B: ${curve.label}`, dashed: true }));
+    const looks = 1 + Math.max(...mine.curves.map((curve) => curve.look));
+    const dashed = theirs.curves.map((curve) => {
+      return { ...curve, label: `B: ${curve.label}`, look: looks + curve.look, dashed: true };
+    });
     return { ...figure, plot: { ...mine, curves: [...mine.curves, ...dashed] } };
   });
 }

@@ -1,7 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
+import { filesOf, freePath, newFile, project, refreshProject, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button, Dialog, Segments, Select, toast } from "../../ui";
 import { LISTS, MACHINES, type Machine } from "./task";
@@ -42,11 +42,10 @@ export default function Synthesis({ name }: ViewProps) {
   return (
     <div class="synthesis">
       {stem === "" ? (
-        <div class="ui-stack">
-          <h1>{t("synthesis.title")}</h1>
+        <>
+          <ViewHead title={t("synthesis.title")}>{head}</ViewHead>
           <p>{project.value === null ? t("app.loading") : t("synthesis.noFile")}</p>
-          <div class="ui-row">{head}</div>
-        </div>
+        </>
       ) : (
         <TaskView key={stem} path={`${FOLDER}/${stem}.toml`} stem={stem} head={head} />
       )}
