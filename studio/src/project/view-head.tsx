@@ -40,8 +40,8 @@ function CommandButton({ asked }: { asked: CommandRequest }) {
   const [open, setOpen] = useState(false);
   return (
     <>
-      <IconButton icon="terminal" label={t("files.command")} onClick={() => setOpen(true)} />
-      <Dialog title={t("files.command")} open={open} onClose={() => setOpen(false)}>
+      <IconButton icon="terminal" label={t("ui.commands")} onClick={() => setOpen(true)} />
+      <Dialog title={t("ui.commands")} open={open} onClose={() => setOpen(false)}>
         <Command asked={asked} />
       </Dialog>
     </>

@@ -1,8 +1,9 @@
 import { readdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { afterEach, describe, expect, it } from "vitest";
-import { formatNumber, formatSpan, setLanguage, t } from ".";
-import { en } from "./en";
+import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { formatNumber, formatSpan, loadTexts, setLanguage, t } from ".";
+import { en as first } from "./en";
+import { views } from "./en/views";
 import { tr } from "./tr";
 
 const SOURCES = join(import.meta.dirname, "..");
@@ -15,12 +16,14 @@ function filesBelow(path: string): string[] {
 const code = filesBelow(SOURCES)
   .filter((path) => /\.tsx?$/.test(path) && !/\.test\.tsx?$/.test(path) && !path.includes(join(SOURCES, "text")))
   .map((path) => ({ path, text: readFileSync(path, "utf8") }));
+const en = { ...first, ...views };
 const groups = Object.entries(en) as [keyof typeof en, Record<string, string>][];
 
 function braces(text: string): string[] {
   return [...new Set(text.match(/\{\w+\}/g) ?? [])].sort();
 }
 
+beforeAll(loadTexts);
 afterEach(() => setLanguage("en"));
 
 describe("every text", () => {

@@ -34,7 +34,6 @@ export default {
   writeAll: "Write everything ({count})",
   search: "Search the files",
   writeAgain: "Write again",
-  command: "Command line and Python",
   writing: "{title} is being written",
   failed: "These checks fail: {names}",
   notes: "{count} note|{count} notes",

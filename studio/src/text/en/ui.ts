@@ -7,6 +7,7 @@ export default {
   copyFailed: "The browser did not allow copying. Select the text and press Ctrl+C.",
   commandLine: "Command line",
   python: "Python",
+  commands: "Command line and Python",
   notQuantity: "This is not a number with a unit. Write it like {example}.",
   notNumber: "This is not a number. Write it like {example}.",
   unknownUnit: "The unit {unit} is not known. Write it like {example}.",

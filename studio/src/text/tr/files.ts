@@ -36,7 +36,6 @@ export default {
   writeAll: "Hepsini yaz ({count})",
   search: "Dosyalarda ara",
   writeAgain: "Yeniden yaz",
-  command: "Komut satırı ve Python",
   writing: "{title} yazılıyor",
   failed: "Şu denetimler sağlanmıyor: {names}",
   notes: "{count} not|{count} not",

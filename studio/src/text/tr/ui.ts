@@ -9,6 +9,7 @@ export default {
   copyFailed: "Tarayıcı kopyalamaya izin vermedi. Metni seçip Ctrl+C'ye basın.",
   commandLine: "Komut satırı",
   python: "Python",
+  commands: "Komut satırı ve Python",
   notQuantity: "Bu, birimli bir sayı değil. Şöyle yazın: {example}.",
   notNumber: "Bu bir sayı değil. Şöyle yazın: {example}.",
   unknownUnit: "{unit} birimi bilinmiyor. Şöyle yazın: {example}.",

@@ -2,22 +2,23 @@ import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
 import { remember } from "../../app/settings";
-import { project, refreshProject, useDocument, ViewHead } from "../../project";
+import { project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
-import { Button, Select, Split, Tabs, Verdict } from "../../ui";
-import { Bill } from "./bill";
+import { Button, later, Select, Split, Tabs, Verdict } from "../../ui";
 import { ChartCanvas } from "./chart-canvas";
-import { Edits } from "./edits";
 import { type CarpetModel, modelOf, type Recipe } from "./model";
 import { ChooseFile, takePicture } from "./picture";
 import { recipesOf, Settings } from "./settings";
-import { Shelf } from "./shelf";
 import { Tools } from "./tools";
-import { Weaver } from "./weaver";
-import { Yarns } from "./yarns";
 import "./carpet.css";
 import "./assignment.css";
 import "./shelf.css";
+
+const Bill = later(async () => (await import("./bill")).Bill);
+const Edits = later(async () => (await import("./edits")).Edits);
+const Shelf = later(async () => (await import("./shelf")).Shelf);
+const Weaver = later(async () => (await import("./weaver")).Weaver);
+const Yarns = later(async () => (await import("./yarns")).Yarns);
 
 /** The carpet: from a picture to the chart, its yarns and its rows. */
 export default function Carpet({ name }: ViewProps) {
@@ -34,10 +35,7 @@ function RecipeView({ path }: { path: string }) {
   const isMissing = document.saved.value === "missing";
   const isRead = document.data.value !== null || document.saved.value === "loading";
   useReady(model.chart.value !== null || model.problem.value !== null || document.error.value !== null || isMissing);
-  useEffect(() => {
-    void refreshProject().catch(() => undefined);
-    return model.follow();
-  }, [model]);
+  useEffect(() => model.follow(), [model]);
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setDragging(false);

@@ -94,7 +94,7 @@ function ProductRow({ path, product, entry }: RowProps) {
       </div>
       {writing !== undefined && <Outcome writing={writing} title={title} />}
       <details class="files-command">
-        <summary>{t("files.command")}</summary>
+        <summary>{t("ui.commands")}</summary>
         <CopyCommand command={product.command} python={product.python} />
       </details>
     </li>

@@ -2,9 +2,9 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { filesOf, project, refreshProject, useDocument, ViewHead } from "../../project";
+import { filesOf, project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
-import { Button, formatQuantity, IconButton, type Judged, Slider, Verdict } from "../../ui";
+import { Button, formatQuantity, IconButton, type Judged, Slider, Verdict, Zoom } from "../../ui";
 import { Canvas } from "./canvas";
 import { Editor } from "./editor";
 import { range, wrapped } from "./figure";
@@ -20,9 +20,6 @@ import "./linkage.css";
 const FIRST = "four-bar";
 
 export default function Linkage({ name }: { name: string }) {
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-  }, []);
   const names = filesOf("linkage").map((file) => nameOf(file.path));
   const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
   useReady(project.value !== null && shown === undefined);
@@ -82,11 +79,7 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
           <p class="visually-hidden" id="linkage-keys">
             {t("linkage.keys")}
           </p>
-          <div class="linkage-zoom">
-            <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => pointer.zoom(1.25)} />
-            <IconButton icon="minus" label={t("figure.zoomOut")} onClick={() => pointer.zoom(0.8)} />
-            <IconButton icon="fit" label={t("figure.zoomFit")} onClick={() => pointer.fit()} />
-          </div>
+          <Zoom onZoom={(factor) => pointer.zoom(factor)} onFit={() => pointer.fit()} />
           <TypedSpot tools={tools} onDone={focus} />
           <NextStep editor={editor} />
           <Player editor={editor} />

@@ -4,7 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { answered, postPacked } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo, rename, type ViewProps } from "../../app/routes";
-import { filesOf, project, refreshProject, useDocument, ViewHead } from "../../project";
+import { filesOf, project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button, Progress, Select, toast, Verdict, VerdictBadge } from "../../ui";
 import { type Live, liveOf } from "./live";
@@ -18,10 +18,7 @@ import "./loom.css";
 const RECIPE = "carpet.toml";
 
 export default function Loom({ name }: ViewProps) {
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-    void findRun();
-  }, []);
+  useEffect(() => void findRun(), []);
   const files = loomFiles();
   const file = name || files[0];
   if (file === undefined) return project.value === null ? <Loading /> : <NoLoom />;
