@@ -25,6 +25,7 @@ from ilmek.api.designs import design as design
 from ilmek.api.designs import list_machines as list_machines
 from ilmek.api.designs import parameters as parameters
 from ilmek.api.designs import reproduce as reproduce
+from ilmek.api.forward_runs import forward_dynamics as forward_dynamics
 from ilmek.api.four_bars import crank_rocker as crank_rocker
 from ilmek.api.four_bars import function_four_bars as function_four_bars
 from ilmek.api.four_bars import motion_four_bars as motion_four_bars
@@ -38,9 +39,9 @@ from ilmek.api.masses import bar as bar
 from ilmek.api.masses import bar_mass as bar_mass
 from ilmek.api.masses import combined as combined
 from ilmek.api.masses import point_mass as point_mass
-from ilmek.api.mechanisms import forward_dynamics as forward_dynamics
 from ilmek.api.mechanisms import four_bar as four_bar
 from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
+from ilmek.api.mechanisms import mechanism as mechanism
 from ilmek.api.mechanisms import read_mechanism as read_mechanism
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve

@@ -261,12 +261,28 @@ CALLS: dict[str, Call] = {
         (length(0.3), length(0.06), length(0.2), length(0.23)),
         dict(branch=Count(1), points=Other({"rocker": {"E": 0.3 + 0j}}, True, NOT_A_BODY), name=FreeText("four")),
     ),
+    "mechanism": Call(
+        ilmek.mechanism,
+        (
+            Other({"ground": {"O": 0, "line": 0}, "arm": {"O": 0}, "ram": {"line": 0}}, wrong=({"arm": {"O": 0}}, 3)),
+            Other(["arm", "line"], wrong=("ground", "rm", ["arm", 3], 3)),
+        ),
+        {
+            "slides": Other((SLIDE,), wrong=(SLIDE, ("line",))),
+            "branches": Other({}, wrong=({"line": 3}, {"x": 1})),
+            "name": FreeText("press"),
+        },
+    ),
     "slider_crank": Call(
         ilmek.slider_crank,
         (length(0.06), length(0.2)),
         dict(offset=length(0.01), branch=Count(1), points=Other({}, True, NOT_A_BODY), name=FreeText("slider")),
     ),
-    "read_mechanism": Call(ilmek.read_mechanism, (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),)),
+    "read_mechanism": Call(
+        ilmek.read_mechanism,
+        (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),),
+        {"values": Other({}, wrong=({"stroke": "1mm"}, {1: "1mm"}, {"stroke": 3}))},
+    ),
     "write_mechanism": Call(
         lambda name, mechanism, inertias: ilmek.write_mechanism(new_path(name), mechanism, inertias),
         (Other("a.toml", wrong=("a.txt", "a/b.toml", "")), Other(four_bar()), Other(INERTIAS, True, WRONG_INERTIAS)),

@@ -121,7 +121,7 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.make_chart(3, "30x40cm", "10x10/dm"), "a int given for a picture"),
         (lambda: ilmek.make_chart(np.zeros((8, 8, 3)), "30x40cm", "10x10/dm"), "uint8"),
         (lambda: ilmek.make_chart(np.zeros((8, 8), np.uint8), "30x40cm", "10x10/dm"), "rows x columns x 3"),
-        (lambda: ilmek.write_chart("chart.txt", chart()), "one of .png, .bmp, .oxs, .pdf"),
+        (lambda: ilmek.write_chart("chart.txt", chart()), "one of .png, .bmp, .tiff, .oxs, .wif, .pdf"),
     ],
 )
 def test_slip_is_caught_with_what_was_given_and_a_guess(typed: object, message: str) -> None:

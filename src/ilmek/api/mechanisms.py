@@ -2,31 +2,29 @@
 
 from __future__ import annotations  # so that `help` shows the aliases
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ilmek.arguments import Arguments, Point, Quantities, Quantity
 from ilmek.arrays import RealField
-from ilmek.dynamics import forward, inverse
-from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
+from ilmek.dynamics import inverse
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load
-from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
 from ilmek.io.mechanism_file import MechanismFile
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.joints import body_point
-from ilmek.linkage.model import Input, Mechanism, Rotation
+from ilmek.linkage.joints import GROUND, body_point
+from ilmek.linkage.model import Body, Displacement, Input, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
 from ilmek.synthesis.result import FourBarSolution
@@ -108,6 +106,57 @@ def slider_crank(
     )
 
 
+def mechanism(
+    bodies: Mapping[str, Mapping[str, Point]],
+    inputs: str | Input | Sequence[str | Input],
+    *,
+    slides: Sequence[Slide] = (),
+    branches: Mapping[str, int] = MappingProxyType({}),
+    name: str = "mechanism",
+) -> Mechanism:
+    """A mechanism from the points of its bodies [m]: a point that two bodies name is their pin, or the slide so named.
+
+    bodies    body -> points by name, in the body's frame [m]; one body is "ground"
+    inputs    a body that turns about its only pin on the ground, or a slide; else `Rotation`, `Displacement`
+    slides    `Slide` records      branches  as of `Mechanism`
+
+    Raises MechanismError for a point of three bodies, a body without one pin on the ground, and as `Mechanism`.
+
+    >>> bodies = {"ground": {"O": 0, "C": -0.2j}, "crank": {"O": 0, "A": 0.1}, "block": {"A": 0, "slot": 0}}
+    >>> bodies["lever"] = {"C": 0, "slot": 0}
+    >>> shaper = mechanism(bodies, "crank", slides=[Slide("slot", "block", "lever")], branches={"slot": +1})
+    >>> [joint.name for joint in shaper.joints], shaper.inputs
+    (['O', 'C', 'A', 'slot'], (Rotation(body='crank', about='O'),))
+    """
+    given = Arguments("a mechanism", MechanismError)
+    tables = given.mapping("bodies", bodies, lambda body, points: given.mapping(body, points, given.near_point))
+    sliding = given.sequence("slides", slides, Slide)
+    holders: dict[str, list[str]] = {}
+    for body, points in tables.items():
+        for point in points:
+            holders.setdefault(point, []).append(body)
+    pins = []
+    for point in [point for point in holders if point not in {slide.name for slide in sliding}]:
+        if len(holders[point]) > 2:
+            raise given.error(f"point {point!r} is of {', '.join(holders[point])}", allowed="two bodies at a joint")
+        if len(holders[point]) == 2:
+            pins.append(Pin(point, *holders[point]))
+
+    def driven(entry: str | Input) -> Input:
+        if not isinstance(entry, str):
+            return entry
+        if entry in {slide.name for slide in sliding}:
+            return Displacement(entry)
+        about = [pin.name for pin in pins if set(pin.bodies) == {GROUND, entry}]
+        if len(about) != 1:
+            raise given.error(f"{len(about)} pins join {entry!r} and the ground", do="give a Rotation, a Displacement")
+        return Rotation(entry, about[0])
+
+    named = [inputs] if isinstance(inputs, str | Rotation | Displacement) else inputs
+    drives = tuple(driven(entry) for entry in given.sequence("inputs", named, (str, Rotation, Displacement)))
+    return Mechanism(tuple(Body(*entry) for entry in tables.items()), (*pins, *sliding), drives, branches, name)
+
+
 def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:
     """Points by body and name [m], of the bodies of a mechanism alone."""
     tables: dict[str, dict[str, complex]] = {}
@@ -119,15 +168,21 @@ def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> 
     return tables
 
 
-def read_mechanism(path: str | Path) -> MechanismFile:
+def read_mechanism(path: str | Path, *, values: Mapping[str, str] = MappingProxyType({})) -> MechanismFile:
     """The `mechanism` and the `inertias` of a .toml or .json file; `solve` takes the result as it is.
 
-    Raises MechanismError with file, line and key.
+    values  take the place of entries of the file's table `values`, as texts with units
+    Raises MechanismError with file, line and key, and for a value that the file does not have.
 
     >>> read_mechanism("examples/jansen_leg.toml").mechanism.name
     'Jansen leg'
+    >>> press = read_mechanism("examples/slider_crank_press.toml", values={"stroke": "80mm"})
+    >>> round(press.mechanism.point("crank.A").real, 3)
+    0.04
     """
-    return mechanism_file.read_mechanism(Arguments("a mechanism", MechanismError).path("path", path))
+    given = Arguments("a mechanism", MechanismError)
+    entries = given.mapping("values", values, given.text)
+    return mechanism_file.read_mechanism(given.path("path", path), entries)
 
 
 def write_mechanism(
@@ -245,102 +300,6 @@ def as_inertias(inertias: object) -> dict[str, Inertia]:
     """Inertias of a call by body. Raises MechanismError for another object."""
     given = Arguments("", MechanismError)
     return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
-
-
-def forward_dynamics(
-    mechanism: Solvable,
-    inertias: Mapping[str, Inertia],
-    duration: Quantity,
-    *,
-    position: Values = 0.0,
-    speed: Values = 0.0,
-    drive: Drive | Mapping[str, Drive] | None = None,
-    loads: Sequence[Load] = (),
-    joint_frictions: Sequence[JointFriction] = (),
-    flywheel: Quantity | Mapping[str, Quantity] = 0.0,
-    every: Quantity | None = None,
-) -> ForwardRun:
-    """Run of a mechanism from a state, under its drives, loads and friction.
-
-    inertias  body -> inertia; a body that is not listed is massless
-    duration  [s]
-    position, speed  of the input at the start [rad, rad/s; m, m/s]; of several inputs by name
-    drive     a `MotorDrive`, or the effort on the input [N m; N] as a function of time, position and speed; of several
-              inputs by name, those without one are free; default: the machine coasts
-    loads     loads such as `Gravity`; default: none
-    joint_frictions  friction of joints: `PinFriction`, `SlideFriction`; default: none
-    flywheel  inertia that moves with the input [kg m²; kg for a sliding input], beside that of its motor; of several
-              inputs by name
-    every     time between the reported samples [s]; default: the steps of the integrator
-
-    Friction that brings the machine, or one of several inputs' joints, to rest and holds it there ends the run: see
-    `ForwardRun.end`. Raises MechanismError for no moving mass, a start at which the mechanism does not close, and
-    values that are not finite.
-
-    >>> from ilmek.dynamics import bar
-    >>> masses = {"crank": bar(0, 0.060, mass=0.1), "rocker": bar(0, 0.230, mass=0.4)}
-    >>> run = forward_dynamics(four_bar(0.300, 0.060, 0.200, 0.230), masses, "0.5s", drive=MotorDrive(2.0, "100rpm"))
-    >>> run.end.reason, bool(run.energy_error < 1e-6), round(float(run.speed[-1]), 2)
-    ('its duration was reached', True, 10.47)
-    """
-    planned = planned_of(mechanism)
-    given = Arguments("a run", MechanismError)
-    inputs = planned.mechanism.inputs
-    drives = _drives(given, inputs, drive)
-    wheels = _numbers(given, inputs, "flywheel", flywheel, lambda turns: "kg*m^2" if turns else "kg")
-    rotors = {name: motor.inertia for name, motor in drives.items() if isinstance(motor, MotorDrive)}
-    reduced = reduce(
-        planned,
-        as_inertias(inertias),
-        as_loads(given, loads),
-        flywheel={entry.name: wheels.get(entry.name, 0.0) + rotors.get(entry.name, 0.0) for entry in inputs},
-        frictions=as_frictions(given, joint_frictions),
-    )
-    at = _numbers(given, inputs, "position", position, lambda turns: "rad" if turns else "m")
-    pace = _numbers(given, inputs, "speed", speed, lambda turns: "rad/s" if turns else "m/s")
-    start = [np.array([one.get(entry.name, 0.0) for entry in inputs]) for one in (at, pace)]
-    return forward.forward(
-        reduced,
-        ForwardState(*(start if len(inputs) > 1 else (float(one[0]) for one in start))),
-        given.number("duration", duration, "s"),
-        drive=drives,
-        every=None if every is None else given.number("every", every, "s"),
-    )
-
-
-def _numbers(
-    given: Arguments, inputs: Sequence[Input], what: str, values: object, unit: Callable[[bool], str]
-) -> dict[str, float]:
-    """One number of each input [SI], of several inputs by name; those left out are missing."""
-    turning = {entry.name: isinstance(entry, Rotation) for entry in inputs}
-    if not isinstance(values, Mapping):
-        if len(turning) > 1 and not (isinstance(values, int | float) and values == 0):
-            do = f"give it by input: {', '.join(turning)}"
-            raise MechanismError(f"one {what} is given for {len(turning)} inputs", do=do)
-        values = dict.fromkeys(turning, values)
-    read: dict[str, float] = {}
-    for name, value in values.items():
-        turns = turning[given.one_of("an input", name, turning)]
-        if what == "position" and turns:
-            given.turning(what, value, ANY_ANGLE)
-        read[name] = given.number(what, value, unit(turns))
-    return read
-
-
-def _drives(given: Arguments, inputs: Sequence[Input], drive: object) -> dict[str, Drive]:
-    """Drives by input."""
-    names = [entry.name for entry in inputs]
-    if drive is None:
-        return {}
-    if not isinstance(drive, Mapping):
-        if len(names) != 1:
-            do = f"give it by input: {', '.join(names)}"
-            raise MechanismError(f"one drive is given for {len(names)} inputs", do=do)
-        drive = {names[0]: drive}
-    return {
-        given.one_of("an input", name, names): given.function("drive", one, "time, position and speed")
-        for name, one in drive.items()
-    }
 
 
 def planned_of(mechanism: Solvable) -> Plan:

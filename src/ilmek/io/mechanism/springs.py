@@ -1,7 +1,6 @@
 """Springs and dampers of a mechanism file, between points of two bodies or torsional."""
 
 from dataclasses import replace
-from typing import Any
 
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
@@ -57,5 +56,5 @@ def _check_apart(first: str, second: str) -> None:
 def spring_data(spring: Spring | TorsionSpring) -> JsonObject:
     """The table of a spring or damper."""
     bodies = [spring.first, spring.second]
-    ends: dict[str, Any] = {"between": spring.ends} if isinstance(spring, Spring) else {"torsion": bodies}
+    ends: JsonObject = {"between": spring.ends} if isinstance(spring, Spring) else {"torsion": bodies}
     return {**ends, **SPRING.table(ends).given(spring)}

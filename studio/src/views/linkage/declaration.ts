@@ -58,7 +58,8 @@ export function spotOf(body: string, point: string): string {
   return `${body}.${point}`;
 }
 
-function namesOf(spot: string): [string, string] {
+/** The names of the body and of the point. */
+export function namesOf(spot: string): [string, string] {
   const at = spot.indexOf(".");
   return [spot.slice(0, at), spot.slice(at + 1)];
 }

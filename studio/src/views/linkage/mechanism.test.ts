@@ -1,4 +1,5 @@
-import { describe, expect, it } from "vitest";
+import { beforeAll, describe, expect, it } from "vitest";
+import { loadTexts } from "../../text";
 import { choicesOf, entryAt, hintOf, lackingKeys } from "./declaration";
 import { entryLabel, entryOf, leaves } from "./entries";
 import { STILL, vec } from "./geometry";
@@ -28,6 +29,8 @@ function drawn(): MechanismData {
 }
 
 describe("edits of a mechanism", () => {
+  beforeAll(loadTexts);
+
   it("draws a four-bar of three links, two pins, two pivots and a drive", () => {
     const data = drawn();
     expect(Object.keys(data.joints ?? {})).toEqual(["B", "C", "A", "D"]);

@@ -210,7 +210,7 @@ export function addTracer(data: MechanismData, body: string, at: Vec, poses: Pos
     table.points = own; // a block: its joints are at its origin
   }
   setPoint(data, body, name, toLocal(poses[body] ?? STILL, at));
-  if (Array.isArray(data["paths"])) (data["paths"] as Entry[]).push([body, name]);
+  if (Array.isArray(data["paths"])) (data["paths"] as Entry[]).push(spotOf(body, name));
   return name;
 }
 
@@ -222,6 +222,14 @@ export function addForce(data: MechanismData, body: string, point: string): stri
   const down = data.units === "SI" ? -Math.PI / 2 : "-90deg";
   data["loads"] = { ...loads, [name]: { force, direction: down, on: spotOf(body, point) } };
   return name;
+}
+
+/** Gives a force another size [N] and direction [rad]. */
+export function setForce(data: MechanismData, name: string, size: number, turn: number): void {
+  const load = (data["loads"] as Record<string, Table> | undefined)?.[name];
+  if (load === undefined) return;
+  load["force"] = data.units === "SI" ? Number(size.toPrecision(3)) : quantityText(size, "N", 3);
+  load["direction"] = angleEntry(data, turn);
 }
 
 /** A mass of a body, with its centre at a position. */
