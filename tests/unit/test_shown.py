@@ -141,7 +141,7 @@ def test_a_report_is_written_as_page_and_json(tmp_path: Path) -> None:
 
 
 def test_a_form_that_a_record_has_not_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match=r"\.pdf for a PlateCam; \.svg"):
+    with pytest.raises(ParameterError, match=r"\.pdf for a PlateCam; \.csv or \.svg"):
         cam().save(tmp_path / "cam.pdf")
 
 
