@@ -88,7 +88,7 @@ def friction():
 
 def pendulum():
     swing, masses = il.mechanism({"ground": {"O": 0}, "arm": {"O": 0}}, "arm"), {"arm": il.point_mass(1.0, 0.5)}
-    return il.simulate(swing, masses, 1.0, position=-np.pi / 6, loads=[il.Gravity(-9.81j)])
+    return il.forward_dynamics(swing, masses, 1.0, position=-np.pi / 6, loads=[il.Gravity(-9.81j)])
 
 
 def five_bar():

@@ -11,14 +11,12 @@ import numpy as np
 
 from ilmek.arguments import Arguments, Point, Quantities, Quantity
 from ilmek.arrays import RealField
-from ilmek.dynamics import forward, inverse
-from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
+from ilmek.dynamics import inverse
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
 from ilmek.io.mechanism_file import MechanismFile
@@ -302,58 +300,6 @@ def as_inertias(inertias: object) -> dict[str, Inertia]:
     """Inertias of a call by body. Raises MechanismError for another object."""
     given = Arguments("", MechanismError)
     return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
-
-
-def simulate(
-    mechanism: Solvable,
-    inertias: Mapping[str, Inertia],
-    duration: Quantity,
-    *,
-    position: Quantity = 0.0,
-    speed: Quantity = 0.0,
-    drive: Drive | None = None,
-    loads: Sequence[Load] = (),
-    flywheel: Quantity = 0.0,
-    every: Quantity | None = None,
-) -> ForwardRun:
-    """Run of a mechanism with one input from a state, under its drive and loads (forward dynamics).
-
-    inertias  body -> inertia; a body that is not listed is massless
-    duration  [s]
-    position, speed  of the input at the start [rad, rad/s; m, m/s]
-    drive     effort on the input [N m; N] as a function of time, position and speed; default: the machine coasts
-    loads     loads such as `Gravity`; default: none
-    flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
-    every     time between the reported samples [s]; default: the steps of the integrator
-
-    Raises MechanismError for several inputs, no moving mass, a start at which the mechanism does not close, and values
-    that are not finite.
-
-    >>> from ilmek.dynamics import bar
-    >>> masses = {"crank": bar(0, 0.060, mass=0.1), "rocker": bar(0, 0.230, mass=0.4)}
-    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), masses, "0.5s", speed="100rpm")
-    >>> run.end.reason, bool(run.energy_error < 1e-6)
-    ('its duration was reached', True)
-    """
-    planned = planned_of(mechanism)
-    given = Arguments("a run", MechanismError)
-    turning = not planned.mechanism.inputs or isinstance(planned.mechanism.inputs[0], Rotation)
-    unit = "rad" if turning else "m"
-    start = given.number("position", position, unit)
-    if turning:
-        given.turning("position", position, ANY_ANGLE)
-    if drive is not None:
-        given.function("drive", drive, "time, position and speed")
-    masses, acting = as_inertias(inertias), as_loads(given, loads)
-    heavy = given.not_negative("flywheel", flywheel, "kg*m^2" if turning else "kg")
-    reduced = reduce(planned, masses, acting, flywheel=heavy)
-    return forward.forward(
-        reduced,
-        ForwardState(start, given.number("speed", speed, f"{unit}/s")),
-        given.number("duration", duration, "s"),
-        drive=drive,
-        every=None if every is None else given.number("every", every, "s"),
-    )
 
 
 def planned_of(mechanism: Solvable) -> Plan:

@@ -57,7 +57,7 @@ class Tool:
     required: int = 0
     files: str = ""
 
-    def schema(self) -> dict[str, Any]:
+    def schema(self) -> JsonObject:
         """JSON Schema of the arguments."""
         properties = {name: {"type": kind, "description": doc} for name, (kind, doc) in self.arguments.items()}
         required = list(self.arguments)[: self.required]
@@ -164,7 +164,7 @@ TOOLS: Mapping[str, Tool] = {
 """Tools by name; at most twelve, so that an agent sees them all."""
 
 
-def call_tool(folder: Path, name: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
+def call_tool(folder: Path, name: str, arguments: Mapping[str, object]) -> JsonObject:
     """The answer of a tool: verdict, checks, results.
 
     folder  in which files are      Raises ParameterError for an unknown tool or argument, a missing one, and a file
@@ -200,35 +200,35 @@ def _inside(folder: Path, name: object) -> str:
 
 
 @singledispatch
-def answer(found: Any) -> dict[str, Any]:
+def answer(found: object) -> JsonObject:
     """What a tool answers of a result of a verb."""
     return {"results": found}
 
 
 @answer.register
-def _(report: Report) -> dict[str, Any]:
+def _(report: Report) -> JsonObject:
     return _checked(report.all_checks, report.results_as_json(), report.results)
 
 
 @answer.register
-def _(run: MachineRun) -> dict[str, Any]:
+def _(run: MachineRun) -> JsonObject:
     return answer(run.report)
 
 
 @answer.register
-def _(woven: WeaveResult) -> dict[str, Any]:
+def _(woven: WeaveResult) -> JsonObject:
     loom = woven.loom
     return _checked(woven.checks, loom.results_as_json(), loom.results) | {"files": list(woven.written)}
 
 
 @answer.register(TuftingResult)
 @answer.register(GunResult)
-def _(tufted: TuftingResult | GunResult) -> dict[str, Any]:
+def _(tufted: TuftingResult | GunResult) -> JsonObject:
     found = {result.name: plain(result.value) for result in tufted.results}
     return _checked(tufted.checks, found, tufted.results) | {"files": list(tufted.written)}
 
 
-def _checked(checks: Sequence[Check], found: JsonObject, results: Sequence[Result]) -> dict[str, Any]:
+def _checked(checks: Sequence[Check], found: JsonObject, results: Sequence[Result]) -> JsonObject:
     """Verdict, checks, results and their units."""
     units = {result.name: si_unit(result.unit) for result in results}
     return {
@@ -237,18 +237,18 @@ def _checked(checks: Sequence[Check], found: JsonObject, results: Sequence[Resul
 
 
 @answer.register
-def _(mechanism: JudgedMechanism) -> dict[str, Any]:
+def _(mechanism: JudgedMechanism) -> JsonObject:
     return {"results": dict(facts(mechanism))}
 
 
 @answer.register
-def _(rows: RecordTable) -> dict[str, Any]:  # type: ignore[type-arg]
+def _(rows: RecordTable) -> JsonObject:  # type: ignore[type-arg]
     return {"results": [{field: _shown(getattr(row, field)) for field in rows.fields} for row in rows]}
 
 
 @answer.register(CheckResult)
 @answer.register(InspectionResult)
-def _(found: CheckResult | InspectionResult) -> dict[str, Any]:
+def _(found: CheckResult | InspectionResult) -> JsonObject:
     return {"holds": getattr(found, "ok", True), "results": found.as_json()}
 
 

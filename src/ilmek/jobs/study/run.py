@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from ilmek.jobs.study.order import (
 from ilmek.jobs.study.targets import PLAYS, MachineTarget, StudyTarget, read_target
 from ilmek.num.pareto import front
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.framed import Framed
 from ilmek.studies.allocation import Allocation, allocated, scaled
 from ilmek.studies.fronts import evolve
@@ -158,7 +157,7 @@ def _plan(  # noqa: PLR0917 - all that distinguishes a study
     results: tuple[str, ...],
     goals: tuple[Goal, ...],
     holds: tuple[Hold, ...],
-) -> dict[str, Any]:
+) -> JsonObject:
     """What is studied, as plain data: the header of the results file."""
     plan: dict[str, Any] = {
         "target": dict(target.identity),
@@ -199,9 +198,7 @@ def _front(rows: StudyRows, goals: tuple[Goal, ...], results: tuple[str, ...]) -
     return tuple(int(number) for number in usable[best][first])
 
 
-def _sweep(
-    recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object
-) -> dict[str, Any]:
+def _sweep(recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object) -> JsonObject:
     points = sampled(recorder.variables, order.sampling, samples, order.seed)
     for start in range(0, len(points), BLOCK):
         recorder(points[start : start + BLOCK])
@@ -210,7 +207,7 @@ def _sweep(
 
 def _sensitivity(
     recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     def evaluate(points: FloatArray) -> FloatArray:
         return np.asarray(recorder(points).results)
 
@@ -222,7 +219,7 @@ def _sensitivity(
 
 def _tolerance(
     recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     variables, sampling = recorder.variables, "latin" if order.sampling == "grid" else order.sampling
     correlation = correlation_of(variables, read_correlations(order.correlate))
     drawn = recorder(sampled(variables, sampling, samples, order.seed, correlation))
@@ -249,7 +246,7 @@ def _tolerance(
 
 def _optimum(
     recorder: DesignRecorder, order: StudyOrder, samples: int, goals: tuple[Goal, ...], results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     columns = [results.index(goal.result) for goal in goals]
     signs = np.array([goal.sign for goal in goals])
 
