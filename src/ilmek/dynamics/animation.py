@@ -73,7 +73,8 @@ def animated(
     still = dataclasses.replace(
         drawing, strokes=(*_guides(motion), *paths, *drawing.strokes), dots=(*pivots, *drawing.dots)
     )
-    points = (MovingDot(_track(motion, *trace), named(trace[1]), "point") for trace in traces)
+    pins = {joint.name for joint in motion.plan.mechanism.joints if isinstance(joint, Pin)}  # drawn and named as pins
+    points = (MovingDot(_track(motion, *trace), named(trace[1]), "point") for trace in traces if trace[1] not in pins)
     first = 0 if start is None else int(np.argmin(np.abs(unit(at) - unit(start)) if closes else np.abs(at - start)))
     bars = (*_wheels(motion, named), *_bars(motion, named, traces))
     dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)

@@ -26,8 +26,9 @@ CARPETS = (
     called("proved programme", "Is the programme of the rug right?", "check",
            ("weave", {"picture": "medallion.png", "out": "proved", **SMALL, "settings": COARSE}),
            path="proved/programme.ilmek"),
-    called("statistics", "How long does this programme weave, with what stops?", "inspect",
-           ("check", {"path": "small_programme.txt"}), path="small_programme.txt"),
+    called("statistics", "How long does the programme weave, with what stops?", "inspect",
+           ("weave", {"picture": "medallion.png", "out": "counted", **SMALL, "settings": COARSE}),
+           path="counted/programme.ilmek"),
     called("text of a programme", "Is this text a programme without faults?", "check", path="small_programme.txt"),
 )  # fmt: skip
 

@@ -2,10 +2,10 @@
 
 from briefs.brief import called, designed
 
-FACTS = ("parameters", {"name": "cam"})
+FACTS = (("machines", {}), ("parameters", {"name": "cam"}))
 
 CAMS = (
-    designed("plate cam", "A cam lifts a slide by 30 mm over 100 degrees.", "cam", FACTS, lift="30mm", rise="100deg"),
+    designed("plate cam", "A cam lifts a slide by 30 mm over 100 degrees.", "cam", *FACTS, lift="30mm", rise="100deg"),
     designed("dwell", "A cam holds its follower up for 60 degrees.", "cam", rise="90deg", dwell="60deg", fall="90deg"),
     designed("law of a cam", "The same in the two flanks: modified trapezoid out, 3-4-5 back.", "cam",
              law="modified-trapezoid", fall_law="3-4-5"),
