@@ -8,13 +8,14 @@ from typing import Any
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
-from ilmek.carpet.cells import CellMap
+from ilmek.carpet.carving import carved_length
+from ilmek.carpet.cells import PILE, CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.construction import CarpetConstruction, construction_of
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
-from ilmek.carpet.pile import PileParams, fill_check, pile_fill
+from ilmek.carpet.pile import PileParams, fill_check, knot_length, of_kind, of_yarn, pile_fill
 from ilmek.carpet.recipe.outcome import edit_checks
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
@@ -117,13 +118,30 @@ class ChartResult:
 
     @property
     def thickest(self) -> Yarn:
-        """The thickest yarn that is used."""
-        return max((self.chart.yarns[yarn] for yarn in self.chart.used), key=lambda yarn: yarn.linear_density)
+        """The yarn that fills most of the ground, of those that are used."""
+        return max((self.chart.yarns[yarn] for yarn in self.chart.used), key=self.fill)
+
+    @property
+    def knot_yarns(self) -> tuple[float, ...]:
+        """The pile yarn of a knot of each yarn of the chart in its highest pile [m]."""
+        knot, quality, pile = self.chart.knot, self.chart.quality, self.highest
+        return tuple(knot_length(knot, quality, yarn.linear_density, of_yarn(pile, yarn)) for yarn in self.chart.yarns)
+
+    @property
+    def highest(self) -> PileParams:
+        """The parameters of the highest pile of the chart's knots."""
+        cells = self.chart.cells
+        kinds = (PILE,) if cells is None else (kind for kind in cells.kinds if kind.knotted)
+        return max((of_kind(self.pile, kind) for kind in kinds), key=lambda pile: pile.pile_height)
+
+    def fill(self, yarn: Yarn) -> float:
+        """Share of the ground that a yarn fills [-]."""
+        return pile_fill(self.chart.quality, yarn.linear_density, of_yarn(self.pile, yarn))
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """The ground that the pile fills; what the chart keeps of the picture; the edge of a sheet; edits left out."""
-        fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
+        fill = fill_check(self.fill(self.thickest))
         kept = kept_checks(self.chart, self.order.order)
         paper = paper_checks(self.chart)
         return (fill, *kept, *paper, *edit_checks(self.chart.reading.edits))
@@ -219,6 +237,7 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
         "columns": chart.columns,
         "knots": chart.tally().knots,
         "cells": [] if chart.cells is None else _cells(chart.cells),
+        "carving": _carving(charted),
         "finished_area": bill.area,
         "edge_length": bill.edge,
         "colours": chart.colours,
@@ -257,6 +276,15 @@ def _cells(cells: CellMap) -> list[Json]:
     return [{**asdict(kind), "cells": count} for kind, count in zip(cells.kinds, cells.counts, strict=True)]
 
 
+def _carving(charted: ChartResult) -> JsonObject | None:
+    """The lines that are carved, and the yarn that is cut away; None: there are none."""
+    cells = charted.chart.cells
+    if cells is None or cells.carving is None:
+        return None
+    mass = sum(need.carved for need in charted.bill.pile)
+    return {**asdict(cells.carving), "length": carved_length(charted.chart), "mass": mass}
+
+
 def _statistics(charted: ChartResult) -> dict[str, Json]:
     chart, found = charted.chart, charted.statistics
     return {
@@ -276,7 +304,7 @@ def fit_results(fit: Fit) -> dict[str, Json]:
     return {field.name: getattr(fit, field.name) for field in fields(fit)}
 
 
-_NEED = ("name", "use", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
+_NEED = ("name", "use", "material", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
 
 
 def _need(need: YarnNeed) -> dict[str, Json]:

@@ -10,7 +10,7 @@ from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.overlay_marks import draw_marks
-from ilmek.io.chart.printing import PrintCanvas
+from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 from ilmek.sentences import Name, Sentence
@@ -24,14 +24,18 @@ _HATCH = 6.0
 _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 
 
-def draw_sheet(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
-    """Draw a sheet on a page of its own."""
+def draw_sheet(
+    canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks, *, printing: Printing
+) -> None:
+    """Draw a sheet on a page of its own, with the marks that are printed."""
     canvas.bookmarkPage(f"sheet-{sheet.number}")
     entry = Sentence("chart.sheet", number=sheet.number, title=sheet.title)
     canvas.addOutlineEntry(canvas.numerals(entry), f"sheet-{sheet.number}", 1)
     canvas.saveState()
     canvas.translate(_LEFT, _TOP - 42.0 - (sheet.shown_high - sheet.low) * plan.cell_height)
     draw_cells(canvas, chart, plan, sheet, inks)
+    if printing.marks is not None:
+        printing.marks(canvas, chart.rows, plan, sheet)
     canvas.restoreState()
     _write_title(canvas, plan, sheet)
     canvas.showPage()

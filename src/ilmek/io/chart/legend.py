@@ -1,7 +1,6 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.cells import OUTSIDE
@@ -13,6 +12,7 @@ from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
+from ilmek.records import JsonObject
 from ilmek.sentences import Sentence
 from ilmek.units import cm, format_number, g, mm
 
@@ -58,7 +58,9 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
-    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
+    title, *notes = printing.legend or (
+        Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total)),
+    )
     y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))
@@ -76,6 +78,11 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         canvas.setFillGray(0.1)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
+    for note in notes:
+        y = _room(canvas, y, _LINE, bool(needs))
+        canvas.setFont(TEXT, 9)
+        canvas.setFillGray(0.1)
+        canvas.write(_LEFT, y, note)
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
@@ -244,7 +251,7 @@ def _cm(length: float) -> str:
     return format_number(length / cm)
 
 
-def _middle(what: str, after: float) -> dict[str, Any]:
+def _middle(what: str, after: float) -> JsonObject:
     """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
     if after == int(after):
         return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}

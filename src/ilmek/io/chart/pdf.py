@@ -32,7 +32,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pr
         draw_overview(canvas, chart, plan)
         draw_legend(canvas, chart, inks, printing)
         for sheet in plan.sheets():
-            draw_sheet(canvas, chart, plan, sheet, inks)
+            draw_sheet(canvas, chart, plan, sheet, inks, printing=printing)
             progress(sheet.number / plan.count)
 
 

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from ilmek.carpet.mounting import Mounting
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.io.chart.lettering import draw_line, is_plain, line_width
+from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import STRONG, register_fonts
 from ilmek.records import record
 from ilmek.sentences import (
@@ -55,6 +56,8 @@ class Printing:
     digits    of DIGITS; "": those of the language       language  of WEAVERS
     bill      the yarn to buy      mounting  of the warps; None: neither is printed
     name      of the carpet, colourway included; "": it has none
+    marks     drawn on the cells of a sheet: with canvas, rows of the chart, layout and sheet; None: none
+    legend    title of the legend and lines below its yarns; (): those of knots
     """
 
     digits: str = ""
@@ -62,6 +65,8 @@ class Printing:
     mounting: Mounting | None = None
     language: str = DEFAULT
     name: str = ""
+    marks: Callable[[Any, int, SheetLayout, ChartSheet], None] | None = None
+    legend: tuple[Sentence, ...] = ()
 
 
 PLAIN = Printing()

@@ -10,7 +10,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
 from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.plan import PlanResult
-from ilmek.jobs.plan_inputs import PlannedOrder
+from ilmek.jobs.plan_fits import PlannedOrder
 from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
 from ilmek.records import record
 from ilmek.sentences import Name, Sentence

@@ -23,7 +23,8 @@ from ilmek.jobs.order import recipe_parameters
 from ilmek.jobs.ordering.offering import OrderLine, finished, offer_of, order_lines
 from ilmek.jobs.ordering.progress import WovenRows, woven_rows
 from ilmek.jobs.ordering.workshop import WorkshopTerms, wage_sheet, write_workshop
-from ilmek.jobs.plan import PlanResult, plan_factory, plan_results
+from ilmek.jobs.plan import PlanResult, plan_factory
+from ilmek.jobs.plan_results import plan_results
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import Check, at_most
