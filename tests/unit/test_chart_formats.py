@@ -101,7 +101,7 @@ def test_options_and_notes_follow_from_the_table(name: str) -> None:
 
 
 def test_another_ending_and_another_file_are_none_of_them(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"one of \.png, \.bmp, \.oxs, \.pdf"):
+    with pytest.raises(OutputError, match=r"one of \.png, \.bmp, \.tiff, \.oxs, \.wif, \.pdf"):
         format_by_ending(Path("chart.jpg"))
     (tmp_path / "a.png").write_bytes(b"GIF89a")
     assert format_of(tmp_path / "a.png") is None

@@ -9,6 +9,7 @@ Each pixel of the floor reads the picture of the carpet where its ray meets it: 
 """
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFilter, ImageOps
@@ -56,19 +57,34 @@ def draw_room(carpet: Image.Image, width: float, length: float) -> Image.Image:
 
     carpet  its picture, upright on white, which is seen as floor      width, length  of what it shows [m]
     """
+    bare = _bare_room(width, length)
+    image = Image.fromarray(np.concatenate((bare.wall, _floor(bare, carpet, (width, length)))))
+    _draw_settee(ImageDraw.Draw(image, "RGBA"), bare.camera)
+    return image.reduce(_FINER)
+
+
+@record
+class _BareRoom:
+    """A room without its carpet: the wall, and of the rays to the floor where they meet it [m], boards and light."""
+
+    camera: _Camera
+    wall: Rgb
+    x: FloatArray
+    y: FloatArray
+    boards: FloatArray
+    light: FloatArray
+
+
+@lru_cache(maxsize=1)  # the colourways of a design lie in one room
+def _bare_room(width: float, length: float) -> _BareRoom:
     camera = _camera(width, length)
     rows, columns = _FINER * HIGH, _FINER * WIDE
     u = camera.half * (2 * (np.arange(columns) + 0.5) / columns - 1)
     v = camera.upper - (camera.upper - camera.lower) * (np.arange(rows) + 0.5) / rows
     horizon = int(np.count_nonzero(v > -_EYE / (camera.wall + camera.near)))
-    picture = np.empty((rows, columns, 3), dtype=np.uint8)
-    picture[:horizon] = _wall(camera, u, v[:horizon])
     y = -_EYE / v[horizon:, np.newaxis] - camera.near
     x = u * (y + camera.near)
-    picture[horizon:] = _floor(x, y, camera, carpet, (width, length))
-    image = Image.fromarray(picture)
-    _draw_settee(ImageDraw.Draw(image, "RGBA"), camera)
-    return image.reduce(_FINER)
+    return _BareRoom(camera, _wall(camera, u, v[:horizon]), x, y, _boards(x, y), _daylight(x, y, camera))
 
 
 def _camera(width: float, length: float) -> _Camera:
@@ -87,15 +103,20 @@ def _wall(camera: _Camera, u: FloatArray, v: FloatArray) -> Rgb:
     return _codes(np.where(trim, _TRIM, _WALL) * (light * edge)[..., np.newaxis])
 
 
-def _floor(x: FloatArray, y: FloatArray, camera: _Camera, carpet: Image.Image, size: tuple[float, float]) -> Rgb:
-    width, length = size
+def _boards(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Brightness of the boards: each has a tone, grain and seams."""
     board = np.floor(x / _BOARD)
     tone = np.sin(12.9898 * board) * 43758.5453
     joint = np.floor((y + 1.7 * (tone - np.floor(tone))) / 1.6)
     shade = np.sin(78.233 * board + 37.719 * joint) * 43758.5453
     grain = 1.0 + 0.09 * ((shade - np.floor(shade)) - 0.5) + 0.015 * np.sin(210 * x + 3 * np.sin(2.1 * y + board))
     seams = 1.0 - 0.22 * (np.abs(x / _BOARD - np.round(x / _BOARD)) * _BOARD < 0.0016)
-    light = _daylight(x, y, camera)
+    boards: FloatArray = grain * seams
+    return boards
+
+
+def _floor(bare: _BareRoom, carpet: Image.Image, size: tuple[float, float]) -> Rgb:
+    (width, length), x, y, light = size, bare.x, bare.y, bare.light
     texels = _framed(carpet, width)
     high, wide = texels.shape[:2]
     scale = carpet.width / width
@@ -106,7 +127,7 @@ def _floor(x: FloatArray, y: FloatArray, camera: _Camera, carpet: Image.Image, s
     there = np.flatnonzero(inside)
     shadow = np.ones(x.size)
     shadow[there] = 1.0 - 0.40 * seen[:, 3] / 255
-    floor = np.array(_OAK) * (grain * seams * shadow.reshape(x.shape) * light)[..., np.newaxis]
+    floor = np.array(_OAK) * (bare.boards * shadow.reshape(x.shape) * light)[..., np.newaxis]
     pile = np.any(seen[:, :3] < _WHITE, axis=1)
     floor.reshape(-1, 3)[there[pile]] = seen[pile, :3] * light.reshape(-1)[there[pile], np.newaxis]
     return _codes(floor)

@@ -34,13 +34,13 @@ def write_wif(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
 def _sections(chart: Chart) -> Iterator[tuple[str, Mapping[object, object]]]:
     """The sections of the file by name, with their keys."""
     made, picks = mounting(chart), _PICKS * chart.rows
-    spacing = {"Units": "centimeters"}
+    pick = made.row_mark / TENS / _PICKS
     sections: dict[str, Mapping[object, object]] = {
         "COLOR PALETTE": {"Form": "RGB", "Range": "0,255", "Entries": 1},
         "COLOR TABLE": {1: ",".join(map(str, GROUND_COLOUR))},
         "WEAVING": {"Rising Shed": "true", "Shafts": 2, "Treadles": 2},
-        "WARP": {"Threads": made.warps, "Color": 1, **spacing, "Spacing": f"{made.pitch / cm:.6g}"},
-        "WEFT": {"Threads": picks, "Color": 1, **spacing, "Spacing": f"{made.row_mark / TENS / _PICKS / cm:.6g}"},
+        "WARP": {"Threads": made.warps, "Color": 1, "Units": "centimeters", "Spacing": f"{made.pitch / cm:.6g}"},
+        "WEFT": {"Threads": picks, "Color": 1, "Units": "centimeters", "Spacing": f"{pick / cm:.6g}"},
         "TIEUP": {1: 1, 2: 2},
         "THREADING": {warp: 1 + (warp - 1) % 2 for warp in range(1, made.warps + 1)},
         "TREADLING": {pick: 1 + (pick - 1) % 2 for pick in range(1, picks + 1)},

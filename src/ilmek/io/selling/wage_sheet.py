@@ -67,7 +67,7 @@ def write_wages(path: Path, name: str, sheet: WageSheet) -> None:
         page = OrderPage(canvas, title, name)
         page.heading(name, 15.0)
         amount = money(Decimal(repr(rules.amount)).quantize(Decimal("0.01")), sheet.currency)
-        facts = [(Sentence("order.rule"), Name(rules.region))] if rules.region else []
+        facts: list[tuple[str, str]] = [(Sentence("order.rule"), Name(rules.region))] if rules.region else []
         facts += [(Sentence("order.rate"), Sentence("order.rate-text", amount=amount, knots=thousands(rules.knots)))]
         if rules.supplement:
             share = percent(rules.supplement)
