@@ -41,6 +41,7 @@ class Printing:
     digits    of DIGITS; "": those of the language       language  of WEAVERS
     bill      the yarn to buy      mounting  of the warps; None: neither is printed
     marks     drawn on the cells of a sheet: with canvas, rows of the chart, layout and sheet; None: none
+    pile      height of knots without one of their own [m]; None: the usual one
     legend    title of the legend and lines below its yarns; (): those of knots
     """
 
@@ -50,6 +51,7 @@ class Printing:
     language: str = DEFAULT
     marks: Callable[[Any, int, SheetLayout, ChartSheet], None] | None = None
     legend: tuple[Sentence, ...] = ()
+    pile: float | None = None
 
 
 PLAIN = Printing()
