@@ -78,8 +78,8 @@ outside = np.hypot(*(np.indices((24, 24)) - 11.5)) > 12
 CHARTS.insert(1, chart_of(24, 24, cells=CellMap(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
 CHARTS.insert(2, chart_of(22, 22, cells=CellMap(outside[1:-1, 1:-1].astype(int), (PILE, CUT_AWAY))))  # bound with tape
 piles = CellMap(np.indices((9, 30))[1] // 10 % 3, (PILE, CellKind("low", height=5e-3), CellKind("loops", loop=True)))
-CHARTS.append(chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0))))
-CHARTS.append(chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0, (default_yarns()[0].name,)))))
+CHARTS.insert(-1, chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0))))
+CHARTS.insert(-1, chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0, (default_yarns()[0].name,)))))
 
 
 def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Path]:

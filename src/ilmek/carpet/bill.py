@@ -9,11 +9,10 @@ included; a reserve is bought beyond it.
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
 
 from ilmek.carpet.carving import carved_masses
-from ilmek.carpet.chart import Chart
-from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.cut_edge import cut_share, edge_length, finished_area
 from ilmek.carpet.dye_lots import rows_of_new_lots, whole
 from ilmek.carpet.ground import GroundParams, GroundYarn, binding_tape, binding_yarn, ground_yarns, selvedge_yarn
@@ -24,6 +23,9 @@ from ilmek.carpet.yarn_plan import OVERCAST, TAPE, YarnPlanParams, parse_hank, w
 from ilmek.elements.knot_kinds import FORMS
 from ilmek.errors import CarpetError, did_you_mean
 from ilmek.report.framed import RecordTable
+
+if TYPE_CHECKING:
+    from ilmek.carpet.chart import Chart
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +117,7 @@ class YarnBill:
         return max(self.pile, key=lambda need: need.knots)
 
 
-def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundParams | None = None) -> YarnBill:
+def yarn_bill(chart: "Chart", plan: YarnPlanParams | None = None, ground: GroundParams | None = None) -> YarnBill:
     """The yarn bill of a chart.
 
     plan    default: that of the class
@@ -145,13 +147,37 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
     return YarnBill(needs, lines, finished_area(chart), plan.currency, published_band(chart.quality), edge)
 
 
-def _cut(thread: GroundYarn, chart: Chart, ground: GroundParams) -> GroundYarn:
+def names_to_buy(chart: "Chart") -> tuple[str, ...]:
+    """The name under which each yarn of a chart is bought: that in its list, which it has on its first position.
+
+    >>> from ilmek import Chart, read_yarns
+    >>> rose, ivory = read_yarns()[:2]
+    >>> twice = replace(rose, name=f"{rose.name} (creel 2)")
+    >>> names_to_buy(Chart([[0, 1, 2]] * 2, (rose, ivory, twice), "6x4cm", "5x5/dm", "symmetric")) == (
+    ...     rose.name, ivory.name, rose.name)
+    True
+    """
+    yarns = chart.yarns
+    places = sorted(range(len(yarns)), key=lambda place: chart.positions[place])
+    firsts = (next(yarns[one] for one in places if _is_same(yarns[one], yarn)) for yarn in yarns)
+    return tuple(first.name for first in firsts)
+
+
+_BESIDES_NAME = attrgetter(*(part.name for part in fields(Yarn) if part.name != "name"))
+
+
+def _is_same(one: Yarn, other: Yarn) -> bool:
+    """Whether two yarns of a chart are one yarn of the list."""
+    return one == other or (one.number is not None and _BESIDES_NAME(one) == _BESIDES_NAME(other))
+
+
+def _cut(thread: GroundYarn, chart: "Chart", ground: GroundParams) -> GroundYarn:
     """A yarn of the ground of which the part outside of the shape is cut away, both ends and fringes with it."""
     share = {"end": 0.0, "warp": 1 - (ground.loom_waste + 2 * ground.fringe) / ground.warp_length(chart.size.length)}
     return replace(thread, kept=share.get(thread.use, thread.kept) * (1 - cut_share(chart)))
 
 
-def _binding_yarn(chart: Chart, name: str | None, most: Yarn) -> Yarn:
+def _binding_yarn(chart: "Chart", name: str | None, most: Yarn) -> Yarn:
     """The yarn of the binding. Raises CarpetError for an unknown one."""
     if name is None:
         return most
@@ -163,7 +189,7 @@ def _binding_yarn(chart: Chart, name: str | None, most: Yarn) -> Yarn:
     return found
 
 
-def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> float:
+def pile_length(chart: "Chart", yarn: int, pile: PileParams | None = None) -> float:
     """Length of a yarn in all knots of a chart [m]: whole, half and jufti ones, by the height of their pile."""
     density, length = chart.yarns[yarn].linear_density, 0.0
     usual = of_yarn(pile or PileParams(), chart.yarns[yarn])
@@ -174,7 +200,7 @@ def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> floa
     return length
 
 
-def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, material: str, carved: float) -> YarnNeed:
+def _pile_need(chart: "Chart", index: int, plan: YarnPlanParams, material: str, carved: float) -> YarnNeed:
     """The line of a pile yarn; of its knots both ends are cut, but those of a loop."""
     yarn, knots, pile = chart.yarns[index], chart.tied.of(index), plan.pile(chart.quality)
     length = pile_length(chart, index, pile)

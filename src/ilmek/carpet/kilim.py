@@ -31,6 +31,7 @@ from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, param
+from ilmek.records import record
 from ilmek.units import g, m, mm
 
 SLIT, DOVETAIL, INTERLOCK = JOINS = ("slit", "dovetail", "interlock")
@@ -161,7 +162,7 @@ def pick_length(cells: int, joins: int, params: KilimParams, ground: GroundParam
     return across + math.pi * (warp + weft) / 2 + allowance * joins
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class KilimWork:
     """What is woven: wefts of a chart, and the time for them.
 

@@ -206,6 +206,9 @@ def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None, 
         require_wide(inside)
         cells = cells.woven(~inside, CUT_AWAY)
     plain = _plain(chart, params)
+    if not (cells.tied & ~plain).any():
+        do = "leave rows with knots: --flat-weave with fewer rows, or --kilim-ends"
+        raise CarpetError("flat weave takes every knot of the carpet", allowed="at least one knot", do=do)
     if plain.any():
         cells = cells.woven(plain & ~cells.are(OUTSIDE), PLAIN_GROUND)
     for name, pile in pile_kinds(params.pile).items():

@@ -11,6 +11,7 @@ from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.carving import carved_length
 from ilmek.carpet.cells import PILE, CellMap
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.construction import CarpetConstruction, construction_of
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
@@ -62,6 +63,7 @@ class ChartResult:
     source      the fitted picture, made small; None of a chart as input, and where it is not wanted
     whole       the same of the picture before it was cropped to the carpet's proportions; None where it was not
     ground      of the loom, where there is one
+    name        of the carpet in its order, colourway included; ""
     """
 
     order: ResolvedOrder
@@ -72,11 +74,18 @@ class ChartResult:
     source: Rgb | None = None
     whole: Rgb | None = None
     ground: GroundParams | None = None
+    name: str = ""
 
     @property
     def pile(self) -> PileParams:
         """The parameters of the pile."""
         return self.order.order.plan.pile(self.chart.quality)
+
+    @property
+    def construction(self) -> CarpetConstruction:
+        """Outline, binding, flat weave and the heights of the pile."""
+        order = self.order.order
+        return construction_of(self.chart, self.bill, order.shape, order.plan)
 
     @property
     def usual_counts(self) -> bool:
@@ -106,7 +115,7 @@ class ChartResult:
         ground = self.order.order.plan.ground(self.ground)
         files = self.order.order.files
         warps = mounting(self.chart, ground)
-        return Printing(files.digits or "", self.bill, warps, files.lang, pile=self.pile.pile_height)
+        return Printing(files.digits or "", self.bill, warps, files.lang, self.name, pile=self.pile.pile_height)
 
     @property
     def thickest(self) -> Yarn:

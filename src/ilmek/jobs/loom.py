@@ -33,7 +33,10 @@ from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines import hand_loom
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
+from ilmek.machines.automated_loom.knotting import CAMS
+from ilmek.machines.automated_loom.offers import branches
 from ilmek.machines.automated_loom.report import analyse
+from ilmek.machines.automated_loom.search import SearchJournal
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.hand_loom import HandLoom
 from ilmek.machines.weaver_hands import HAND
@@ -368,11 +371,11 @@ def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
 
 
 def _can_be_designed(params: AutomatedLoomParams) -> bool:
+    """Whether there is a loom to choose, good or not: the slowest one with some carrier of the weft and some beat."""
     try:
-        design(params)
+        return any(branch.looms for branch in branches(params, CAMS, SearchJournal()))
     except IlmekError:
         return False
-    return True
 
 
 def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:

@@ -3,6 +3,7 @@
 from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.papers_english import PAPERS
 from ilmek.sentences.sheets_english import SHEETS
+from ilmek.sentences.terminal_english import TERMINAL
 from ilmek.sentences.weaver_english import WEAVER
 
 ENGLISH = {
@@ -214,5 +215,6 @@ ENGLISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **TERMINAL,
     **ORDER,
 }  # fmt: skip

@@ -3,6 +3,7 @@
 from ilmek.sentences.order_turkish import ORDER
 from ilmek.sentences.papers_turkish import PAPERS
 from ilmek.sentences.sheets_turkish import SHEETS
+from ilmek.sentences.terminal_turkish import TERMINAL
 from ilmek.sentences.weaver_turkish import WEAVER
 
 TURKISH = {
@@ -214,5 +215,6 @@ TURKISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **TERMINAL,
     **ORDER,
 }  # fmt: skip

@@ -94,6 +94,7 @@ WEAVER = {
     "legend.carve-round": "After washing, carve lines {depth} mm deep, {angle}° between their sides, round: {yarns}.",
     "legend.title": "Legend: {colours}, {knots} knots",
     "legend.continued": "Legend, continued",
+    "legend.outside": "outside of the shape: plain ground, which is cut away",
     "legend.knots": "knots",
     "legend.share": "share",
     "legend.length": "length [m]",

@@ -87,6 +87,7 @@ WEAVER = {
     "çevresine: {yarns}.",
     "legend.title": "Renkler: {colours}, {knots} ilmek",
     "legend.continued": "Renkler, devamı",
+    "legend.outside": "biçimin dışı: düz zemin, sonra kesilir",
     "legend.knots": "ilmek",
     "legend.share": "pay",
     "legend.length": "uzunluk [m]",

@@ -13,6 +13,7 @@ from typing import Any
 from ilmek.carpet.quality import shortest_quality
 from ilmek.carpet.recipe.anchor import CARPET, grid_text
 from ilmek.carpet.recipe.edits import Edit
+from ilmek.records import JsonObject
 
 ORDERS = ("straight", "brick", "half-drop", "mirrored")
 """straight: in rows and columns; brick: every second row is shifted by half a tile; half-drop: every second column is;
@@ -156,12 +157,12 @@ class Recipe:
         """Whether anything but one whole picture makes the design."""
         return self.picture is None or bool(self.mirror or self.borders or self.motifs)
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> JsonObject:
         """The recipe as plain data; paths are relative to its folder."""
         return plain_data(self, lambda path: path.relative_to(self.file.parent).as_posix())
 
 
-def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
+def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> JsonObject:
     """The layout and the edits of a recipe with the keys of a file; what is left open is left out.
 
     named  a picture's path as it is written
@@ -170,7 +171,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
     def path(file: Path | None) -> str:
         return "" if file is None else named(file)
 
-    def given(**entries: Any) -> dict[str, Any]:
+    def given(**entries: object) -> JsonObject:
         return {key: value for key, value in entries.items() if value}
 
     data = given(picture=path(recipe.picture), plain=recipe.plain, mirror=recipe.mirror)
@@ -216,7 +217,7 @@ def _plain_edits(edits: Sequence[Edit]) -> list[Any]:
         return [edit.text for edit in edits]
     tables = []
     for anchor, lines in itertools.groupby(edits, lambda edit: edit.anchor):
-        keys: dict[str, Any] = {} if anchor.on == CARPET else {"on": anchor.name}
+        keys: JsonObject = {} if anchor.on == CARPET else {"on": anchor.name}
         keys |= {} if anchor.grid is None else {"grid": grid_text(anchor.grid)}
         keys |= {} if anchor.grid is None or anchor.quality is None else {"quality": shortest_quality(anchor.quality)}
         tables.append({**keys, "lines": [edit.text for edit in lines]})

@@ -2,17 +2,19 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
+from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.mounting import TENS, Mounting
 from ilmek.carpet.usual_pile import usual_pile_height
+from ilmek.io.chart.grid import hatch
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
+from ilmek.records import JsonObject
 from ilmek.sentences import Sentence, noun, translated
 from ilmek.units import cm, format_number, g, mm
 
@@ -72,6 +74,12 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         _swatch(canvas, inks, NO_KNOT, _LEFT, y)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("rows.text-plain", sign=NO_SIGN))
+    if chart.cells is not None and chart.cells.number(OUTSIDE):
+        y = _room(canvas, y, _LINE, bool(needs))
+        hatch(canvas, [(canvas.side(_LEFT, 24.0), y - 4.0, 24.0, 14.0)])
+        canvas.setFillGray(0.1)
+        canvas.setFont(TEXT, 9)
+        canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
     for note in (*_of_the_pile(chart, printing.pile), *notes):
         y = _room(canvas, y, _LINE, bool(needs))
         canvas.setFont(TEXT, 9)
@@ -266,7 +274,7 @@ def _cm(length: float) -> str:
     return format_number(length / cm)
 
 
-def _middle(what: str, after: float) -> dict[str, Any]:
+def _middle(what: str, after: float) -> JsonObject:
     """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
     if after == int(after):
         return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}

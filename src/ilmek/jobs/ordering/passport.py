@@ -49,7 +49,7 @@ def carpet_record(
             "length": chart.size.length,
             "across": chart.quality.across,
             "along": chart.quality.along,
-            "pile_height": line.charted.pile.pile_height,
+            **line.offered.made.as_json(),
         },
         "yarn": [_yarn(need, lots.get(need.bought or need.name, "")) for need in bill.needs],
         "fibre": [
