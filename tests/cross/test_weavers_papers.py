@@ -16,7 +16,7 @@ from reportlab.pdfbase import pdfmetrics
 
 from ilmek import sentences
 from ilmek.carpet.bill import yarn_bill
-from ilmek.carpet.cells import CUT_AWAY, PILE, CellMap
+from ilmek.carpet.cells import CUT_AWAY, PILE, Carving, CellKind, CellMap
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.kilim import KilimParams
@@ -77,6 +77,9 @@ CHARTS = [
 outside = np.hypot(*(np.indices((24, 24)) - 11.5)) > 12
 CHARTS.insert(1, chart_of(24, 24, cells=CellMap(outside.astype(int), (PILE, CUT_AWAY))))  # a round carpet
 CHARTS.insert(2, chart_of(22, 22, cells=CellMap(outside[1:-1, 1:-1].astype(int), (PILE, CUT_AWAY))))  # bound with tape
+piles = CellMap(np.indices((9, 30))[1] // 10 % 3, (PILE, CellKind("low", height=5e-3), CellKind("loops", loop=True)))
+CHARTS.insert(-1, chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0))))
+CHARTS.insert(-1, chart_of(9, 30, cells=replace(piles, carving=Carving(2e-3, 1.0, (default_yarns()[0].name,)))))
 
 
 def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Path]:

@@ -114,7 +114,8 @@ class ChartResult:
         """What the printed files have besides the chart."""
         ground = self.order.order.plan.ground(self.ground)
         files = self.order.order.files
-        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang, self.name)
+        warps = mounting(self.chart, ground)
+        return Printing(files.digits or "", self.bill, warps, files.lang, self.name, pile=self.pile.pile_height)
 
     @property
     def thickest(self) -> Yarn:

@@ -83,6 +83,11 @@ ARABIC = {
     "chart.quality": "{across} × {along} عقدة في الديسيمتر",
     # Legend
     "legend.outline": "مفتاح الألوان",
+    "legend.pile": "وبر {height} مم: {knots} عقدة",
+    "legend.pile-loop": "حلقات {height} مم: {knots} عقدة",
+    "legend.pile-border": "خط متقطع: يتغير ارتفاع الوبر.",
+    "legend.carve": "بعد الغسل، انحت خطوطا بعمق {depth} مم وزاوية {angle} درجة حيث تلتقي الألوان.",
+    "legend.carve-round": "بعد الغسل، انحت خطوطا بعمق {depth} مم وزاوية {angle} درجة حول: {yarns}.",
     "legend.title": "مفتاح الألوان: {colours}؛ {knots} عقدة",
     "legend.continued": "مفتاح الألوان، تتمة",
     "legend.outside": "خارج الشكل: أرضية سادة تُقص",

@@ -83,6 +83,11 @@ HINDI = {
     "chart.quality": "प्रति डेसीमीटर {across} × {along} गाँठें",
     # Legend
     "legend.outline": "रंग सूची",
+    "legend.pile": "रोआँ {height} मि.मी.: {knots} गाँठें",
+    "legend.pile-loop": "फंदे {height} मि.मी.: {knots} गाँठें",
+    "legend.pile-border": "टूटी लकीर: रोएँ की ऊँचाई बदलती है।",
+    "legend.carve": "धुलाई के बाद रंगों की सीमा पर {depth} मि.मी. गहरी, {angle} अंश की लकीरें तराशें।",
+    "legend.carve-round": "धुलाई के बाद {depth} मि.मी. गहरी, {angle} अंश की लकीरें तराशें, इनके चारों ओर: {yarns}।",
     "legend.title": "रंग सूची: {colours}, {knots} गाँठें",
     "legend.continued": "रंग सूची, जारी",
     "legend.outside": "आकार के बाहर: सादी ज़मीन, जो काट दी जाती है",

@@ -83,6 +83,11 @@ NEPALI = {
     "chart.quality": "प्रति डेसिमिटर {across} × {along} गाँठा",
     # Legend
     "legend.outline": "रङ सूची",
+    "legend.pile": "रौं {height} मि.मि.: {knots} गाँठा",
+    "legend.pile-loop": "फन्दा {height} मि.मि.: {knots} गाँठा",
+    "legend.pile-border": "टुटेको रेखा: रौंको उचाइ बदलिन्छ।",
+    "legend.carve": "धोएपछि रङको सिमानामा {depth} मि.मि. गहिरो, {angle} डिग्रीका रेखा काट्नुहोस्।",
+    "legend.carve-round": "धोएपछि {depth} मि.मि. गहिरो, {angle} डिग्रीका रेखा काट्नुहोस्, यिनको वरिपरि: {yarns}।",
     "legend.title": "रङ सूची: {colours}, {knots} गाँठा",
     "legend.continued": "रङ सूची, जारी",
     "legend.outside": "आकार बाहिर: सादा भुइँ, जुन काटिन्छ",

@@ -84,6 +84,11 @@ PERSIAN = {
     "chart.quality": "{across} × {along} گره در دسی‌متر",
     # Legend
     "legend.outline": "راهنمای رنگ‌ها",
+    "legend.pile": "پرز {height} میلی‌متر: {knots} گره",
+    "legend.pile-loop": "حلقه {height} میلی‌متر: {knots} گره",
+    "legend.pile-border": "خط‌چین: بلندی پرز تغییر می‌کند.",
+    "legend.carve": "پس از شستن، در مرز رنگ‌ها شیاری به عمق {depth} میلی‌متر و زاویه‌ی {angle} درجه بتراشید.",
+    "legend.carve-round": "پس از شستن، شیاری به عمق {depth} میلی‌متر و زاویه‌ی {angle} درجه بتراشید، دور: {yarns}.",
     "legend.title": "راهنمای رنگ‌ها: {colours}، {knots} گره",
     "legend.continued": "راهنمای رنگ‌ها، ادامه",
     "legend.outside": "بیرون از شکل: زمینه‌ی ساده که بریده می‌شود",

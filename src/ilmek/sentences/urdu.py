@@ -84,6 +84,11 @@ URDU = {
     "chart.quality": "فی ڈیسی میٹر {across} × {along} گرہیں",
     # Legend
     "legend.outline": "رنگوں کی فہرست",
+    "legend.pile": "پائل {height} ملی میٹر: {knots} گرہیں",
+    "legend.pile-loop": "حلقے {height} ملی میٹر: {knots} گرہیں",
+    "legend.pile-border": "ٹوٹی لکیر: پائل کی اونچائی بدلتی ہے۔",
+    "legend.carve": "دھلائی کے بعد رنگوں کی سرحد پر {depth} ملی میٹر گہری، {angle} درجے کی لکیریں تراشیں۔",
+    "legend.carve-round": "دھلائی کے بعد {depth} ملی میٹر گہری، {angle} درجے کی لکیریں تراشیں، ان کے گرد: {yarns}۔",
     "legend.title": "رنگوں کی فہرست: {colours}، {knots} گرہیں",
     "legend.continued": "رنگوں کی فہرست، جاری",
     "legend.outside": "شکل سے باہر: سادہ زمین، جو کاٹ دی جاتی ہے",

@@ -87,6 +87,11 @@ WEAVER = {
     "chart.quality": "{across}x{along}/dm",
     # Legend
     "legend.outline": "Legend",
+    "legend.pile": "Pile {height} mm: {knots} knots",
+    "legend.pile-loop": "Loops {height} mm: {knots} knots",
+    "legend.pile-border": "Dashed line: the pile changes.",
+    "legend.carve": "After washing, carve lines {depth} mm deep where colours meet, {angle}° between their sides.",
+    "legend.carve-round": "After washing, carve lines {depth} mm deep, {angle}° between their sides, round: {yarns}.",
     "legend.title": "Legend: {colours}, {knots} knots",
     "legend.continued": "Legend, continued",
     "legend.outside": "outside of the shape: plain ground, which is cut away",

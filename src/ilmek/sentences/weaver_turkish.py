@@ -78,6 +78,13 @@ WEAVER = {
     "chart.quality": "{across} × {along} ilmek/dm",
     # Legend
     "legend.outline": "Renkler",
+    "legend.pile": "Hav {height} mm: {knots} ilmek",
+    "legend.pile-loop": "Bukle {height} mm: {knots} ilmek",
+    "legend.pile-border": "Kesikli çizgi: hav yüksekliği değişir.",
+    "legend.carve": "Yıkamadan sonra renklerin buluştuğu yerde {depth} mm derinlikte, yanları arasında {angle}° olan "
+    "çizgiler oyulur.",
+    "legend.carve-round": "Yıkamadan sonra {depth} mm derinlikte, yanları arasında {angle}° olan çizgiler oyulur, "
+    "çevresine: {yarns}.",
     "legend.title": "Renkler: {colours}, {knots} ilmek",
     "legend.continued": "Renkler, devamı",
     "legend.outside": "biçimin dışı: düz zemin, sonra kesilir",

@@ -56,6 +56,7 @@ def draw_cells(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: Char
     draw_marks(canvas, chart, plan, sheet, inks)
     _shade_overlap(canvas, plan, sheet)
     _draw_lines(canvas, plan, sheet)
+    _draw_piles(canvas, chart, plan, sheet)
     _write_numbers(canvas, plan, sheet)
     _mark_middle(canvas, plan, sheet)
 
@@ -155,6 +156,27 @@ def _draw_lines(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> No
     canvas.setLineWidth(0.9)
     canvas.lines(bold)
     canvas.rect(0, 0, columns * wide, rows * high, stroke=1, fill=0)
+
+
+def _draw_piles(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet) -> None:
+    """A dashed line where the pile of neighbouring knots changes."""
+    if chart.cells is None or sum(kind.knotted for kind in chart.cells.kinds) < 2:
+        return
+    rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
+    shown = rows, slice(sheet.left, sheet.shown_right)
+    kinds, tied = (of[shown][::-1] for of in (chart.cells.index, chart.cells.tied))
+    wide, high = plan.cell_width, plan.cell_height
+    aside = (kinds[:, 1:] != kinds[:, :-1]) & tied[:, 1:] & tied[:, :-1]
+    above = (kinds[1:] != kinds[:-1]) & tied[1:] & tied[:-1]
+    lines = [((c + 1) * wide, r * high, (c + 1) * wide, (r + 1) * high) for r, c in np.argwhere(aside).tolist()]
+    lines += [(c * wide, (r + 1) * high, (c + 1) * wide, (r + 1) * high) for r, c in np.argwhere(above).tolist()]
+    canvas.saveState()
+    for grey, dash in ((1.0, ()), (0.0, (2.0, 1.5))):
+        canvas.setStrokeGray(grey)
+        canvas.setLineWidth(1.4)
+        canvas.setDash(*dash)
+        canvas.lines(lines)
+    canvas.restoreState()
 
 
 def _write_numbers(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:

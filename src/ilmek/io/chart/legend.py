@@ -1,19 +1,21 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.mounting import TENS, Mounting
+from ilmek.carpet.usual_pile import usual_pile_height
 from ilmek.io.chart.grid import hatch
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
 from ilmek.records import JsonObject
-from ilmek.sentences import Sentence
+from ilmek.sentences import Sentence, noun, translated
 from ilmek.units import cm, format_number, g, mm
 
 _LEFT, _TOP, _LOW = 54.0, 800.0, 50.0
@@ -78,7 +80,7 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         canvas.setFillGray(0.1)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
-    for note in notes:
+    for note in (*_of_the_pile(chart, printing.pile), *notes):
         y = _room(canvas, y, _LINE, bool(needs))
         canvas.setFont(TEXT, 9)
         canvas.setFillGray(0.1)
@@ -88,6 +90,27 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     if printing.mounting:
         _draw_mounting(canvas, chart, printing.mounting, y)
     canvas.showPage()
+
+
+def _of_the_pile(chart: Chart, pile: float | None) -> Iterator[Sentence]:
+    """The heights of the pile and the lines that are carved into it; pile: as of `Printing`."""
+    cells = chart.cells
+    if cells is None:
+        return
+    knotted = [pair for pair in zip(cells.kinds, cells.counts, strict=True) if pair[0].knotted]
+    usual = usual_pile_height(chart.quality) if pile is None else pile
+    for kind, knots in knotted if len(knotted) > 1 else ():
+        height = format_number((usual if kind.height is None else kind.height) / mm, 3)
+        yield Sentence("legend.pile-loop" if kind.loop else "legend.pile", height=height, knots=thousands(knots))
+    if len(knotted) > 1:
+        yield Sentence("legend.pile-border")
+    if cells.carving is not None:
+        groove = {
+            "depth": format_number(cells.carving.depth / mm, 3),
+            "angle": format_number(math.degrees(cells.carving.angle), 3),
+        }
+        names = ", ".join(translated(noun(name)) for name in cells.carving.yarns)
+        yield Sentence("legend.carve-round", **groove, yarns=names) if names else Sentence("legend.carve", **groove)
 
 
 def draw_entry(

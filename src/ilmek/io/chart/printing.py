@@ -57,6 +57,7 @@ class Printing:
     bill      the yarn to buy      mounting  of the warps; None: neither is printed
     name      of the carpet, colourway included; "": it has none
     marks     drawn on the cells of a sheet: with canvas, rows of the chart, layout and sheet; None: none
+    pile      height of knots without one of their own [m]; None: the usual one
     legend    title of the legend and lines below its yarns; (): those of knots
     """
 
@@ -67,6 +68,7 @@ class Printing:
     name: str = ""
     marks: Callable[[Any, int, SheetLayout, ChartSheet], None] | None = None
     legend: tuple[Sentence, ...] = ()
+    pile: float | None = None
 
 
 PLAIN = Printing()
