@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from default_machines import SETTLED
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.side_view import RETREAT
@@ -35,7 +36,7 @@ LOOMS = (
 
 @cache
 def loom(settings: tuple[tuple[str, str], ...]) -> LoomDesign:
-    return design(AutomatedLoomParams.read(dict(settings)))
+    return design(AutomatedLoomParams.read(SETTLED | dict(settings)))
 
 
 def linkage_of(made: LoomDesign) -> BeatUp:

@@ -6,6 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from default_machines import SETTLED
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -25,10 +26,10 @@ from ilmek.plane.contours import along, rounded_hull
 
 LOOMS: tuple[dict[str, str], ...] = (
     {},
-    {"width": "0.4m", "length": "0.5m"},
+    {**SETTLED, "width": "0.4m", "length": "0.5m"},
     {"beat": "guide-cams"},
-    {"width": "2.6m", "knots_across": "40/dm", "tension": "15N", "lift": "70mm", "beat": "comb"},
-    {"width": "1.7m", "tension": "30N", "lift": "70mm"},
+    {**SETTLED, "width": "2.6m", "knots_across": "40/dm", "tension": "15N", "lift": "70mm", "beat": "comb"},
+    {**SETTLED, "width": "1.7m", "tension": "30N", "lift": "70mm"},
 )
 
 

@@ -35,7 +35,7 @@ _LOOMS = st.fixed_dictionaries(
 @examples(18, 3)
 @given(_LOOMS)
 def test_every_machine_of_a_loom_weaves_the_same_cloth(asked: dict[str, Any]) -> None:
-    loom = design(AutomatedLoomParams.read(asked))
+    loom = design(AutomatedLoomParams.read({"knot_cycle": "1.8s", **asked}))
     woven = loom.task.cloth
     assert {child.component.name for child in loom.children} > {"weaver", "weft", "shedding", "warp-tension"}
     assert all(child.design.params.cloth == woven for child in loom.children)

@@ -15,6 +15,9 @@ from ilmek.machines.hand_loom import MACHINE as HAND_LOOM
 from ilmek.report import Report
 from ilmek.viz.page import machine_page
 
+SETTLED = {"knotting": "cams", "knot_cycle": "1.8s", "weft": "rapier"}
+"""Settings of a loom for tests that are not of its choice: what is left open, heads and beat, takes a tenth of it."""
+
 
 @cache
 def default_design(machine: str) -> Any:

@@ -28,7 +28,7 @@ from ilmek.report.scene import Solid
 from ilmek.units import mm, um
 
 SETTINGS = ({}, {"beat": "linkage"})
-LONE = ("weft", "tufting-machine", "shedding", "hammer")
+LONE = ("weft", "tufting-machine", "shedding", "hammer", "beat-up")
 
 
 def plate(name: str, thickness: float, wide: float = 0.06, z: float = 0.0) -> Occurrence:
@@ -86,6 +86,7 @@ def test_a_tube_has_threads_in_its_wall_and_no_heads_in_it() -> None:
     assert {round(hole.steps[0][1], 9) for hole in drillings(drilled)} == {0.006}
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("settings", SETTINGS)
 def test_every_screw_of_a_loom_is_in_a_hole_and_in_a_thread(settings: dict[str, str]) -> None:
     loom = MACHINE.designed(MACHINE.params.read(settings))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from default_machines import loom_report
+from default_machines import SETTLED, loom_report
 
 from ilmek.io.glb import glb_bytes
 from ilmek.machines.automated_loom import MACHINE
@@ -21,7 +21,7 @@ COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 @cache
 def _scene() -> Scene:
-    loom = MACHINE.designed(MACHINE.params.read({"width": "0.3 m", "length": "0.4 m"}))
+    loom = MACHINE.designed(MACHINE.params.read({**SETTLED, "width": "0.3 m", "length": "0.4 m"}))
     return scene(loom, loom_report(loom))
 
 

@@ -33,10 +33,8 @@ from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines import hand_loom
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
-from ilmek.machines.automated_loom.knotting import CAMS
-from ilmek.machines.automated_loom.offers import branches
+from ilmek.machines.automated_loom.offers import any_loom
 from ilmek.machines.automated_loom.report import analyse
-from ilmek.machines.automated_loom.search import SearchJournal
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.hand_loom import HandLoom
 from ilmek.machines.weaver_hands import HAND
@@ -254,7 +252,7 @@ def make_loomed(
             return LoomResult(report, colours, made, row_pitch_left=made.beat.row_pitch_left)
         programme = _programme(made, carpet, made.heads, made.bobbins, progress.part(0.7, 0.9, "programme"))
     except IlmekError as error:
-        if loom_order.settings and _can_be_designed(_without_settings(params)):
+        if loom_order.settings and any_loom(_without_settings(params)):
             raise
         return LoomResult(with_nearest(_without_design(params, error), params, progress.part(0.7, 1.0)), ())
     report = reported(made)
@@ -368,14 +366,6 @@ def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
              "changes_per_knot", "knotted_share")  # fmt: skip
     yarns = replace(AutomatedLoomParams().yarns, pile_density=params.yarns.pile_density)
     return AutomatedLoomParams(yarns=yarns, **{name: getattr(params, name) for name in names})
-
-
-def _can_be_designed(params: AutomatedLoomParams) -> bool:
-    """Whether there is a loom to choose, good or not: the slowest one with some carrier of the weft and some beat."""
-    try:
-        return any(branch.looms for branch in branches(params, CAMS, SearchJournal()))
-    except IlmekError:
-        return False
 
 
 def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:

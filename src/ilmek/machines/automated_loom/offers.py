@@ -31,7 +31,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.elements.prices import PriceRates, read_prices
-from ilmek.errors import LoomError, ParameterError
+from ilmek.errors import IlmekError, LoomError, ParameterError
 from ilmek.loom.times import Times
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.automated_loom.cabinet import AMPLIFIER
@@ -49,7 +49,7 @@ from ilmek.machines.automated_loom.design import (
     with_beat,
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
-from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
+from ilmek.machines.automated_loom.knotting import ARMS, CAMS, KnottingHead
 from ilmek.machines.automated_loom.machine_cost import Fitting, MachineCost, machine_cost, with_control
 from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
@@ -148,6 +148,14 @@ def only_loom(params: AutomatedLoomParams) -> ReadyLoom | None:
     given = params.heads is not None or by_hand
     kinds = AUTO not in (params.knotting, params.beat) and len(_wefts(params)) == 1
     return _slowest(params) if given and kinds and (by_hand or not _quicker(params)) else None
+
+
+def any_loom(params: AutomatedLoomParams) -> bool:
+    """Whether there is a loom with heads on cams to choose, good or not: the slowest, with some weft and some beat."""
+    try:
+        return any(branch.looms for branch in branches(params, CAMS, SearchJournal()))
+    except IlmekError:
+        return False
 
 
 def _wefts(params: AutomatedLoomParams) -> tuple[str, ...]:
