@@ -42,6 +42,12 @@ class Product:
         """Its name."""
         return {}
 
+    together = 1
+
+    def numbers_together(self, _designs: object, _results: object) -> dict[int, Numbers]:
+        """None: each design is evaluated alone."""
+        return {}
+
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """x y, at most 0.5."""
         product = float(values["x"] or 0) * float(values["y"] or 0)

@@ -29,6 +29,12 @@ class FunctionTarget:
         """Its name."""
         return {"function": self.function}
 
+    together = 1
+
+    def numbers_together(self, _designs: object, _results: object) -> dict[int, Numbers]:
+        """None: each design is evaluated alone."""
+        return {}
+
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """Results f, g, and a check."""
         x = _numbers(values)
