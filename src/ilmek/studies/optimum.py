@@ -24,6 +24,12 @@ MEMBERS, GENERATIONS = 8, 64
 POLISH = 30
 """Largest number of steps of SLSQP."""
 
+PRECISION = 1e-9
+"""Relative change of the goal at which SLSQP ends."""
+
+ENDED = (0, 8)
+"""States in which SLSQP ends at an optimum: to its precision; to the rounding of the goal and the margins."""
+
 STEP = 1e-6
 """Step of the differences, relative to the range of a variable."""
 
@@ -170,9 +176,9 @@ def _polish(cube: _Cube, start: np.ndarray, real: np.ndarray) -> dict[int, float
         method="SLSQP",
         bounds=[(0.0, 1.0)] * int(real.sum()),
         constraints={"type": "ineq", "fun": limits, "jac": lambda x: np.nan_to_num(differences(x)[1])},
-        options={"maxiter": POLISH},
+        options={"maxiter": POLISH, "ftol": PRECISION},
     )
     values = getattr(found, "multipliers", None)
-    if values is None or not found.success:
+    if values is None or found.status not in ENDED:
         return {}
     return {int(n): float(v) * scale for n, v in zip(kept, np.ravel(values), strict=False) if v > 1e-9}
