@@ -8,7 +8,7 @@ from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.machine.figures import TablesRequest, tables
-from ilmek.report import Animation, Gantt, Plot, StackedBars, Timing
+from ilmek.report import Animation, DesignCloud, Gantt, Plot, StackedBars, Timing
 from ilmek.report.figure import Axis, GanttLane, Lane, Series
 from ilmek.viz.plain.figures import rounded_numbers, shown_figures
 from ilmek.viz.plain.records import ShownFigure
@@ -75,9 +75,11 @@ def test_every_kind_of_figure() -> None:
             Timing("t", "Cyclogram", 2.0, (Lane("shed", "cam", 2 * np.pi * axis, axis),)),
             Gantt("g", "Heads", time, (GanttLane("1", axis[:2], axis[1:3], np.array([0, 1])),), ("ties", "waits")),
             StackedBars("b", "Times", time, ("row",), ("a", "b"), np.array([[1.0, np.nan]])),
+            DesignCloud("d", "Designs", (time, time), np.eye(2), ("front", "holds"), np.array([0, 1]), ("x", "y")),
         )
     )
-    assert [one.name for one in made if one.plot or one.timing or one.gantt or one.bars] == ["p", "t", "g", "b"]
+    kinds = [(one.plot, one.timing, one.gantt, one.bars, one.cloud) for one in made]
+    assert [one.name for one, kind in zip(made, kinds, strict=True) if any(kind)] == ["p", "t", "g", "b", "d"]
     assert made[0].plot is not None
     assert len(made[0].plot.curves[0].x) <= 720
     assert made[3].bars is not None

@@ -55,6 +55,7 @@ def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     assert found["best"]["parameters"]["swing"] == pytest.approx(0.4886921905584123)
     assert table.read_text().splitlines()[0] == "swing,drive_torque_max,failed,worst"
     assert "drive_torque_max over swing" in page.read_text()
+    assert "Designs" in page.read_text()
     again = call(*words, "--resume", "--json", "-")
     assert json.loads(again.stdout)["digest"] == found["digest"]
     assert "exists" in call(*words).stderr

@@ -1,6 +1,6 @@
 """Several goals: the front of designs of which none is better in every goal, and its knee.
 
-NSGA-II for two goals, for more NSGA-III, whose members spread over reference directions (Das and Dennis); both of pymoo.
+NSGA-II for two goals, for more NSGA-III, whose members spread over reference directions (Das and Dennis), of pymoo.
 """
 
 from importlib import import_module

@@ -13,7 +13,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.errors import UnitError
-from ilmek.report import Animation, Drawing, Figure, Gantt, Plot, StackedBars, Timing
+from ilmek.report import Animation, DesignCloud, Drawing, Figure, Gantt, Plot, StackedBars, Timing
 from ilmek.units import parse_unit
 from ilmek.viz.style import DASHED, DOTTED, PALETTE
 
@@ -114,7 +114,7 @@ def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
         yield from ((one.label, one.dashed) for one in figure.series)
     elif isinstance(figure, Timing):
         yield from ((lane.name, False) for lane in figure.lanes)
-    elif isinstance(figure, Gantt | StackedBars):
+    elif isinstance(figure, Gantt | StackedBars | DesignCloud):
         yield from ((name, False) for name in figure.kinds)
     else:
         still = figure.still if isinstance(figure, Animation) else figure

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import msgspec
 from markupsafe import Markup
 
-from ilmek.report import Animation, Check, Figure, Gantt, Plot, Report, StackedBars, Timing
+from ilmek.report import Animation, Check, DesignCloud, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
 from ilmek.sentences import translated
 from ilmek.viz.embedded import compressed
@@ -42,7 +42,7 @@ class Drawn:
     @property
     def wide(self) -> bool:
         """Whether it takes the whole width."""
-        return isinstance(self.figure, Timing | Gantt | StackedBars)
+        return isinstance(self.figure, Timing | Gantt | StackedBars | DesignCloud)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,13 +1,14 @@
 """Figures of a report as inline SVG.
 
 `style` has the colours and fonts, `looks` the colour and marker of each label, `sheet` writes SVG; `plot`, `drawing`,
-`animation`, `timing` and `lanes` are the kinds of figure.
+`animation`, `timing`, `lanes` and `cloud` are the kinds of figure.
 """
 
 from collections.abc import Mapping
 
-from ilmek.report import Animation, Drawing, Figure, Gantt, Plot, StackedBars
+from ilmek.report import Animation, DesignCloud, Drawing, Figure, Gantt, Plot, StackedBars
 from ilmek.viz.animation import draw_animation
+from ilmek.viz.cloud import draw_cloud
 from ilmek.viz.drawing import draw_drawing
 from ilmek.viz.lanes import draw_gantt, draw_stacked
 from ilmek.viz.looks import looks_of
@@ -32,6 +33,8 @@ def svg(figure: Figure, looks: Mapping[str, int] | None = None) -> str:
         sheet = draw_gantt(figure, looks)
     elif isinstance(figure, StackedBars):
         sheet = draw_stacked(figure, looks)
+    elif isinstance(figure, DesignCloud):
+        sheet = draw_cloud(figure, looks)
     else:
         sheet = draw_timing(figure, looks)
     return sheet.svg(figure.title, FONTS)

@@ -1135,6 +1135,7 @@ export interface ShownFigure {
   timing: ShownTiming | null;
   gantt: ShownGantt | null;
   bars: ShownBars | null;
+  cloud: ShownCloud | null;
 }
 /**
  * Curves over one axis; figures over a quantity of the same label share a cursor.
@@ -1376,6 +1377,20 @@ export interface ShownBars {
   kinds: string[];
   looks: number[];
   values: (number | null)[][];
+}
+/**
+ * Designs of a study: the values [SI] of each column, the kind of each design, the command that makes it.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownCloud".
+ */
+export interface ShownCloud {
+  columns: ShownAxis[];
+  values: (number | null)[][];
+  kinds: string[];
+  looks: number[];
+  kind: number[];
+  commands: string[];
 }
 /**
  * A figure that the machine has; kind: plot, drawing, animation, timing, gantt or bars.

@@ -6,6 +6,7 @@ export type {
   ShownAnimation,
   ShownAxis,
   ShownBars,
+  ShownCloud,
   ShownCurve,
   ShownDot,
   ShownDrawing,

@@ -2,6 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useMemo } from "preact/hooks";
 import { Table } from "../ui";
 import { CursorContext, type Cursors } from "./cursor";
+import { Designs } from "./designs";
 import { Drawing } from "./drawing";
 import type { ShownFigure, ShownTable } from "./figures";
 import { Player } from "./player";
@@ -11,7 +12,7 @@ import { Timing } from "./timing";
 
 /** A figure with its title and note. */
 export function Figure({ figure, autoplay = false }: { figure: ShownFigure; autoplay?: boolean }) {
-  const wide = figure.timing || figure.gantt || figure.bars;
+  const wide = figure.timing || figure.gantt || figure.bars || figure.cloud;
   return (
     <figure class={`figure${wide ? " wide" : ""}`}>
       <figcaption>{figure.title}</figcaption>
@@ -30,12 +31,13 @@ interface BodyProps {
 
 /** A figure without title and note. */
 export function FigureBody({ figure, autoplay, height }: BodyProps) {
-  const { title, plot, drawing, animation, timing, gantt, bars } = figure;
+  const { title, plot, drawing, animation, timing, gantt, bars, cloud } = figure;
   if (plot) return <Plot plot={plot} title={title} height={height} />;
   if (drawing) return <Drawing drawing={drawing} title={title} height={height} />;
   if (animation) return <Player animation={animation} title={title} autoplay={autoplay} height={height} />;
   if (timing) return <Timing timing={timing} title={title} />;
   if (gantt) return <Gantt gantt={gantt} title={title} />;
+  if (cloud) return <Designs cloud={cloud} title={title} />;
   return bars ? <StackedBars bars={bars} title={title} /> : null;
 }
 

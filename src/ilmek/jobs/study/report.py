@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.jobs.study.run import StudyResult
 from ilmek.records import JsonObject
-from ilmek.report import Axis, Check, Column, Figure, Mark, Plot, Report, Result, Series, Table, at_least
+from ilmek.report import Axis, Check, Column, DesignCloud, Figure, Mark, Plot, Report, Result, Series, Table, at_least
 from ilmek.studies.allocation import Allocation, scaled
 from ilmek.studies.fronts import knee
 from ilmek.studies.tolerance import Yield
@@ -19,6 +19,9 @@ CLASSES = 12
 
 LEAST_IN_CLASS = 3
 """Designs of a class from which its mean is drawn."""
+
+MOST_POINTS = 1000
+"""Designs of the picture of all designs; those of the front are added."""
 
 SHOWN = 10
 """Designs, checks and reasons in a table."""
@@ -200,6 +203,8 @@ def _thinned(numbers: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _figures(found: StudyResult) -> Iterator[Figure]:
+    if found.rows.made.sum() > 1 and len(found.variables) + len(found.results) > 1:
+        yield _cloud(found)
     if len(found.goals) == 2 and found.front:
         yield _front_plot(found)
     for result in found.results:
@@ -210,6 +215,27 @@ def _figures(found: StudyResult) -> Iterator[Figure]:
     for number, variable in enumerate(found.variables):
         if variable.continuous:
             yield from _failure_plot(found, number)
+
+
+def _cloud(found: StudyResult) -> DesignCloud:
+    """All designs that were made, each by what it is: on the front, held, or the check that it fails by most."""
+    rows, failures = found.rows, [name for name, _ in _failures(found)]
+    shown = np.flatnonzero(rows.made)
+    shown = np.union1d(shown[:: max(1, -(-len(shown) // MOST_POINTS))], np.array(found.front, dtype=int)).astype(int)
+    words = [f"fails {name}" for name in failures]
+    named = ("best" if len(found.goals) == 1 else "front", *words[:1], "holds", *words[1:])
+    kind = np.full(len(shown), named.index("holds"))
+    failing = ~rows.feasible[shown]
+    if failures and failing.any():
+        margins = found.margins[shown[failing]][:, [found.checks.index(name) for name in failures]]
+        numbers = np.array([named.index(word) for word in words])
+        kind[failing] = numbers[np.argmin(np.nan_to_num(margins, nan=np.inf), axis=1)]
+    kind[np.isin(shown, found.front)] = 0
+    variables = [Axis(v.name, v.unit if v.continuous else "") for v in found.variables]
+    columns = (*variables, *(Axis(name, found.units[name]) for name in found.results))
+    values = np.column_stack([rows.points[shown], rows.results[shown]]).T
+    commands = tuple(found.command(number) for number in shown.tolist())
+    return DesignCloud("study-designs", "Designs", columns, values, named, kind, commands)
 
 
 def _front_plot(found: StudyResult) -> Plot:

@@ -4,12 +4,25 @@ Curves of many samples are thinned as on the pages that the command line writes.
 """
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.records import alike
-from ilmek.report import Animation, Drawing, Figure, Gantt, MovingStroke, Plot, StackedBars, Stroke, Table, Timing
+from ilmek.report import (
+    Animation,
+    DesignCloud,
+    Drawing,
+    Figure,
+    Gantt,
+    MovingStroke,
+    Plot,
+    StackedBars,
+    Stroke,
+    Table,
+    Timing,
+)
 from ilmek.viz.looks import COLOURED, looks_of, numbered
 from ilmek.viz.number_format import quiet_rows
 from ilmek.viz.plain.records import (
@@ -19,6 +32,7 @@ from ilmek.viz.plain.records import (
     ShownAnimation,
     ShownAxis,
     ShownBars,
+    ShownCloud,
     ShownColumn,
     ShownCurve,
     ShownDot,
@@ -54,20 +68,23 @@ def shown_figures(figures: Iterable[Figure]) -> list[ShownFigure]:
 
 def shown_figure(figure: Figure, looks: Mapping[str, int]) -> ShownFigure:
     """A figure with the looks of its labels, see `viz.looks.looks_of`."""
-    name, title, note = figure.name, figure.title, figure.note
+    kind: dict[str, Any]
     match figure:
         case Plot():
-            return ShownFigure(name, title, note, plot=_plot(figure, looks))
+            kind = {"plot": _plot(figure, looks)}
         case Drawing():
-            return ShownFigure(name, title, note, drawing=_drawing(figure, _coloured(figure.strokes, looks)))
+            kind = {"drawing": _drawing(figure, _coloured(figure.strokes, looks))}
         case Animation():
-            return ShownFigure(name, title, note, animation=_animation(figure, looks))
+            kind = {"animation": _animation(figure, looks)}
         case Timing():
-            return ShownFigure(name, title, note, timing=_timing(figure, looks))
+            kind = {"timing": _timing(figure, looks)}
         case Gantt():
-            return ShownFigure(name, title, note, gantt=_gantt(figure, looks))
+            kind = {"gantt": _gantt(figure, looks)}
         case StackedBars():
-            return ShownFigure(name, title, note, bars=_bars(figure, looks))
+            kind = {"bars": _bars(figure, looks)}
+        case DesignCloud():
+            kind = {"cloud": _cloud(figure, looks)}
+    return ShownFigure(figure.name, figure.title, figure.note, **kind)
 
 
 def shown_table(table: Table) -> ShownTable:
@@ -247,3 +264,9 @@ def _bars(bars: StackedBars, looks: Mapping[str, int]) -> ShownBars:
     rows = [rounded_numbers(row) for row in np.asarray(bars.values, float)]
     axis = ShownAxis(bars.x.label, bars.x.unit)
     return ShownBars(axis, list(bars.bars), kinds, numbered(kinds, looks), rows)
+
+
+def _cloud(cloud: DesignCloud, looks: Mapping[str, int]) -> ShownCloud:
+    columns, kinds = [ShownAxis(one.label, one.unit) for one in cloud.columns], list(cloud.kinds)
+    values = [rounded_numbers(row) for row in cloud.values]
+    return ShownCloud(columns, values, kinds, numbered(kinds, looks), cloud.kind.tolist(), list(cloud.commands))

@@ -186,6 +186,18 @@ class ShownBars:
     values: list[Numbers]
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class ShownCloud:
+    """Designs of a study: the values [SI] of each column, the kind of each design, the command that makes it."""
+
+    columns: list[ShownAxis]
+    values: list[Numbers]
+    kinds: list[str]
+    looks: list[int]
+    kind: list[int]
+    commands: list[str]
+
+
 @dataclass(frozen=True, slots=True)
 class ShownFigure:
     """A figure: one of its kinds, the others are null."""
@@ -199,6 +211,7 @@ class ShownFigure:
     timing: ShownTiming | None = None
     gantt: ShownGantt | None = None
     bars: ShownBars | None = None
+    cloud: ShownCloud | None = None
 
 
 @dataclass(frozen=True, slots=True)

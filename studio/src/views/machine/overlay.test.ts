@@ -5,7 +5,7 @@ import { firstFigures, overlaid } from "./overlay";
 function plot(name: string, label: string, y: number[], unit = "N"): ShownFigure {
   const curves = [{ label, look: 0, dashed: false, x: [0, 1], y }];
   const axes = { x: { label: "crank angle", shown_unit: "deg" }, y: { label: "force", shown_unit: unit } };
-  const other = { drawing: null, animation: null, timing: null, gantt: null, bars: null };
+  const other = { drawing: null, animation: null, timing: null, gantt: null, bars: null, cloud: null };
   return { name, title: name, note: "", plot: { ...axes, curves, marks: [] }, ...other };
 }
 

@@ -77,6 +77,7 @@ KINDS = {
     "Timing": "timing",
     "Gantt": "gantt",
     "StackedBars": "bars",
+    "DesignCloud": "cloud",
 }
 """Kinds of figures by their classes."""
 
