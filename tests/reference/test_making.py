@@ -101,6 +101,11 @@ def turned(part: Measured, price: float, bar: float, finished: float | None = No
     return STEEL * price * 1.05 * section * (long + 3e-3) + money(50, cut)
 
 
+def counterbored(holes: int) -> float:
+    """Clamped once more, and each hole widened to its depth."""
+    return money(45, 45 + 20 * holes)
+
+
 def finished(part: Measured) -> float:
     """Turned again, once it is welded on."""
     return money(50, 60 + 0.6 * part.surface * CM2)
@@ -129,7 +134,7 @@ def cam(part: Measured) -> float:
         ("automated-loom/upper-bracket", lambda part: laser(part, 6) + tapped(4, 12e-3, 20e-3)),
         ("hammer/leaf", lambda part: laser(part, 1)),
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
-        ("weaver/left-side-plate", lambda part: milled(part, 2, ALLOY, 6.0)),
+        ("weaver/left-side-plate", lambda part: milled(part, 1, ALLOY, 6.0) + counterbored(1)),
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
         ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3) + finished(part)),
         ("tension-compensator/pin", lambda part: turned(part, 1.3, 16e-3, math.pi / 2 * 16e-3**2)),
