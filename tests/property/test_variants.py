@@ -16,6 +16,8 @@ from ilmek.dynamics.inverse_run import InverseRun, inverse_run
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_of_values
 from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.study.order import StudyOrder
+from ilmek.jobs.study.run import study
 from ilmek.jobs.study.targets import read_target
 from ilmek.linkage.structure import plan
 from ilmek.linkage.transmission import transmission_angles
@@ -158,3 +160,14 @@ def test_designs_of_a_study_are_those_one_by_one(designs: list[tuple[float, floa
             np.testing.assert_allclose(margin, (theirs.margins or {})[name], rtol=1e-11, atol=1e-12)
     served = target.numbers_together(values, WANTED)
     assert len(values) - 1 in served
+
+
+def test_designs_on_a_cluster_are_those_of_this_process(tmp_path: Path) -> None:
+    """Blocks of arrays are the same, so that the results are, to the last bit."""
+    distributed = pytest.importorskip("distributed")
+    path = tmp_path / "four_bar.toml"
+    path.write_text(FOUR_BAR)
+    order = StudyOrder(str(path), {}, {"a": "40mm..60mm"}, ("drive_torque_rms",), samples=80)
+    with distributed.LocalCluster(2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        there = study(order, cluster=cluster.scheduler_address)
+    assert there.digest == study(order).digest

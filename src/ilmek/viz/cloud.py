@@ -26,8 +26,8 @@ def draw_cloud(cloud: DesignCloud, looks: Mapping[str, int]) -> Sheet:
     top = _NAMES + ROW * (1 + max((row for _, row, _ in entries), default=0))
     sheet = Sheet(WIDTH, _BOTTOM + HEIGHT + top)
     shades = [colour(number) for number in numbered(cloud.kinds, looks)]
-    for number, row, across in entries:
-        draw_key(sheet, cloud.kinds[number], shades[number], complex(across, sheet.height - 4.0 - ROW * (row + 0.5)))
+    for number, row, left in entries:
+        draw_key(sheet, cloud.kinds[number], shades[number], complex(left, sheet.height - 4.0 - ROW * (row + 0.5)))
     across = np.linspace(_SIDE, WIDTH - _SIDE, len(cloud.columns))
     spans = [span(row[np.isfinite(row)]) for row in cloud.values]
     shares = np.array([(row - low) / (high - low) for row, (low, high) in zip(cloud.values, spans, strict=True)])
