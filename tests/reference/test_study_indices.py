@@ -188,6 +188,21 @@ def test_optimum_with_its_multiplier(tmp_path: Path) -> None:
     assert list(found.multipliers.values()) == pytest.approx([1.0], rel=0.02)
 
 
+def test_the_end_of_a_range_costs_what_its_derivative_is(tmp_path: Path) -> None:
+    """Least x + y with x y >= 1 and y >= 2: at (0.5, 2), where df/dy = 1 - 1 / y^2."""
+    variables = (Variable("x", "", 0.1, 4.0, 2.0), Variable("y", "mm", 2.0, 4.0, 3.0))
+    recorder = recorded(tmp_path, "corner", variables, ("f", "g"))
+
+    def judge(points: FloatArray) -> tuple[np.ndarray, np.ndarray]:
+        first = recorder.evaluations
+        rows = recorder(points)
+        return rows.results[:, 0], recorder.file.margins(first, first + len(points))
+
+    found = optimum(variables, judge, 300, seed=1)
+    assert found.goal == pytest.approx(2.5, rel=1e-7)
+    assert found.ends == pytest.approx({1: 0.75}, rel=1e-3)
+
+
 def test_optimum_of_whole_numbers_and_choices(tmp_path: Path) -> None:
     variables = (
         Variable("x", "", 0.0, 9.0, 0.0, whole=True),

@@ -10,9 +10,10 @@ from ilmek.records import JsonObject
 from ilmek.report import Axis, Check, Column, DesignCloud, Figure, Mark, Plot, Report, Result, Series, Table, at_least
 from ilmek.studies.allocation import Allocation, scaled
 from ilmek.studies.fronts import knee
+from ilmek.studies.optimum import Optimum
 from ilmek.studies.tolerance import Yield
 from ilmek.studies.variable import settings_of
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, parse_unit
 
 CLASSES = 12
 """Classes of a variable in a curve of means."""
@@ -139,11 +140,22 @@ def _best_tables(found: StudyResult) -> Iterator[Table]:
     rows = tuple(_design_row(found, one) for one in _thinned(found.front))
     yield Table("study-best", title, heads, rows, brief=True)
     yield Table("study-command", "As a command", (Column("command"),), ((found.command(number),),), brief=True)
-    if found.optimum is not None and found.optimum.multipliers:
-        goal = found.goals[0]
-        head = Column(f"change of {goal.result} where its limit is relaxed by 1 %", found.units[goal.result])
-        costs = tuple((found.checks[n], -0.01 * m * goal.sign) for n, m in found.optimum.multipliers.items())
-        yield Table("study-multipliers", "What binding limits cost", (Column("check"), head), costs, brief=True)
+    if found.optimum is not None and (found.optimum.multipliers or found.optimum.ends):
+        yield _multiplier_table(found, found.optimum)
+
+
+def _multiplier_table(found: StudyResult, optimum: Optimum) -> Table:
+    """What each binding limit costs: that of a check relaxed by 1 %, a range widened by a unit in which it is shown."""
+    goal = found.goals[0]
+    rows = [(found.checks[n], "1 %", -0.01 * m * goal.sign) for n, m in optimum.multipliers.items()]
+    for number, slope in optimum.ends.items():
+        one = found.variables[number]
+        relation, limit = ("<=", one.high) if slope < 0 else (">=", one.low)
+        name = f"{one.name} {relation} {format_quantity(limit, one.unit)}"
+        change = -abs(slope) * parse_unit(one.unit).factor * goal.sign
+        rows.append((name, format_quantity(parse_unit(one.unit).factor, one.unit), change))
+    heads = (Column("limit"), Column("relaxed by"), Column(f"change of {goal.result}", found.units[goal.result]))
+    return Table("study-multipliers", "What binding limits cost", heads, tuple(rows), brief=True)
 
 
 def _design_row(found: StudyResult, number: int) -> tuple[float | int | str, ...]:
