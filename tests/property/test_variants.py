@@ -2,7 +2,6 @@
 
 import tempfile
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,7 @@ from ilmek.io.mechanism_file import mechanism_of_values
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.study.order import StudyOrder
 from ilmek.jobs.study.run import study
-from ilmek.jobs.study.targets import read_target
+from ilmek.jobs.study.targets import FEW, read_target
 from ilmek.linkage.structure import plan
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.linkage.variants import with_points
@@ -149,17 +148,16 @@ def test_designs_of_a_study_are_those_one_by_one(designs: list[tuple[float, floa
         path.write_text(FOUR_BAR)
         target = read_target(str(path), {}, MotionRequest({}))
     question = Question(target, WANTED, (Hold("drive_torque_rms", "<=", 0.2, "N*m"),))
-    values = [{"a": a, "b": b} for a, b in (*designs, (0.06, 0.2))]
+    values = [{"a": a, "b": b} for a, b in (*designs, *((0.06, 0.2 + 1e-3 * n) for n in range(FEW)))]
     together = evaluated(question, values)
-    alone = [evaluated(replace(question, time_limit=60.0), [one])[0] for one in values]
-    for ours, theirs in zip(together, alone, strict=True):
+    alone = [evaluated(question, [one])[0] for one in values[: len(designs) + 1]]
+    for ours, theirs in zip(together, alone, strict=False):
         assert (ours.status, ours.reason, ours.failed) == (theirs.status, theirs.reason, theirs.failed)
         np.testing.assert_allclose(ours.results, theirs.results, rtol=1e-12)
         assert (ours.margins or {}).keys() == (theirs.margins or {}).keys()
         for name, margin in (ours.margins or {}).items():
             np.testing.assert_allclose(margin, (theirs.margins or {})[name], rtol=1e-11, atol=1e-12)
-    served = target.numbers_together(values, WANTED)
-    assert len(values) - 1 in served
+    assert len(designs) in target.numbers_together(values, WANTED)
 
 
 def test_designs_on_a_cluster_are_those_of_this_process(tmp_path: Path) -> None:

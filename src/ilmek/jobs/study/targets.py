@@ -37,8 +37,8 @@ LONGEST_LIST = 24
 EXTREMES = {"_min": min, "_max": max}
 """Ends of names of results with an entry for each part: of the whole the least or greatest is meant."""
 
-TOGETHER = 64
-"""Designs of a mechanism file that are evaluated at once."""
+TOGETHER, FEW = 64, 32
+"""Designs of a mechanism file evaluated at once; fewer than `FEW` are quicker alone: the compiler is not loaded."""
 
 PLAYS = {
     "clearance": ("mm", "radial play of a pin in its hole"),
@@ -138,6 +138,8 @@ class MechanismTarget:
 
     def numbers_together(self, designs: Sequence[Mapping[str, Value]], results: Sequence[str]) -> dict[int, Numbers]:
         """The numbers of those designs, by their places, that are evaluated as arrays."""
+        if len(designs) < FEW:
+            return {}
         machines, read = {}, self._reader(designs[0])
         for place, values in enumerate(designs):
             with suppress(IlmekError):  # alone it is refused with the reason
