@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ilmek.dynamics.input_loads import jumps
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.analysis import BALANCE, closes_check, dead_centres_check
-from ilmek.jobs.mechanism.request import DrivenInputs, MotionRequest, driven_inputs
+from ilmek.jobs.mechanism.request import MotionRequest, driven_inputs
 from ilmek.linkage.model import Rotation
 from ilmek.linkage.structure import plan
 from ilmek.studies.outcome import Numbers
@@ -41,20 +42,18 @@ def arrays_serve(machine: OwnMachine, request: MotionRequest) -> bool:
     if any(more) or not alone or request.fixed or request.fluctuation != "":
         return False
     driven = driven_inputs(machine, plan(mechanism), request)
-    return driven.speed is not None and float(np.abs(np.diff(driven.values)).max()) <= STEP
+    jumping = any(jumps(one.load, mechanism.inputs[0].name) for one in machine.loads)
+    in_time = driven.time is not None and (driven.time[0] == 0 or not machine.loads)
+    steps = float(np.abs(np.diff(driven.values)).max())
+    return driven.speed is not None and in_time and not jumping and steps <= STEP
 
 
 def numbers_by_arrays(
     base: OwnMachine, machines: Mapping[int, OwnMachine], request: MotionRequest, results: Sequence[str]
 ) -> dict[int, Numbers]:
     """The numbers of those machines, by their places, that arrays serve; base: that of the file."""
-    planned = plan(base.mechanism)
-    driven = driven_inputs(base, planned, request)
-    moved = {
-        place: one
-        for place, one in machines.items()
-        if not base.motions or _moves(driven_inputs(one, planned, request), driven)
-    }
+    driven = driven_inputs(base, plan(base.mechanism), request)
+    moved = {place: one for place, one in machines.items() if _start(one) == _start(base)}
     alike = (
         moved if _stack(base, *moved.values()) else {place: one for place, one in moved.items() if _stack(base, one)}
     )
@@ -79,9 +78,9 @@ def numbers_by_arrays(
     }
 
 
-def _moves(own: DrivenInputs, driven: DrivenInputs) -> bool:
-    """Whether two motions of an input are the same."""
-    return own.speed == driven.speed and np.array_equal(own.values, driven.values)
+def _start(machine: OwnMachine) -> list[tuple[float | None, float]]:
+    """Speed and first value of the motion that a machine gives to its input."""
+    return [(one.speed, float(one.law(np.zeros(1))[0][0])) for one in machine.motions.values()]
 
 
 def _stack(*machines: OwnMachine) -> bool:
