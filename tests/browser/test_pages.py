@@ -113,7 +113,7 @@ def test_a_cyclogram_tells_position_velocity_and_acceleration_at_the_cursor(
 def test_designs_of_a_study_are_kept_by_ranges_and_have_their_command(
     browser: Browser, seen: Seen, tmp_path: Path
 ) -> None:
-    values = np.array([[0.01, 0.02, 0.03, 0.04], [4.0, 3.0, 2.0, 1.0]])
+    values = np.array([0.01, 0.02, 0.03, 0.04]), np.array([4.0, 3.0, 2.0, 1.0])
     columns, commands = (Axis("crank", "mm"), Axis("torque", "N*m")), tuple(f"ilmek design {n}" for n in "abcd")
     cloud = DesignCloud("d", "Designs", columns, values, ("front", "holds"), np.array([1, 0, 0, 1]), commands)
     file = tmp_path / "study.html"

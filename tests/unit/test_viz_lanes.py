@@ -39,21 +39,23 @@ def test_a_repeated_short_span_lies_on_the_long_one_each_time() -> None:
 
 def test_every_part_of_a_bar_has_a_colour_of_its_own() -> None:
     names = tuple(f"use {number}" for number in range(8))
-    bars = StackedBars("b", "Uses", Axis("time", "s"), ("a", "b"), names, np.ones((2, 8)))
-    shades = filled(svg(bars, {name: number + 3 for number, name in enumerate(names)} | {"use 7": 3}))
+    bars = StackedBars(
+        "b", "Uses", Axis("time", "s"), ("a", "b"), names, (np.ones(8), np.ones(8)), looks=(*range(3, 10), 3)
+    )
+    shades = filled(svg(bars))
     assert len(set(shades) - {"#ffffff"}) == 8
 
 
 def test_charts_without_anything_are_drawn() -> None:
     empty = GanttLane("head 1", np.empty(0), np.empty(0), np.empty(0, np.int64))
     assert "<svg" in svg(Gantt("g", "Heads", Axis("time", "h"), (empty,), ("weaves",)))
-    assert "<svg" in svg(StackedBars("b", "Uses", Axis("time", "s"), ("a",), ("x",), np.zeros((1, 1))))
+    assert "<svg" in svg(StackedBars("b", "Uses", Axis("time", "s"), ("a",), ("x",), (np.zeros(1),)))
 
 
 def test_a_cloud_has_a_line_a_design_and_one_that_lacks_a_value_has_a_gap() -> None:
-    columns, nothing = (Axis("a", "mm"), Axis("b", "N"), Axis("c")), [np.nan, np.nan]
+    columns, nothing = (Axis("a", "mm"), Axis("b", "N"), Axis("c")), np.full(2, np.nan)
     kinds = ("front", "holds", "fails a check")
-    cloud = DesignCloud("d", "D", columns, np.array([[1.0, 2], nothing, [3, 4]]), kinds, np.array([0, 1]), ("x", "y"))
-    drawn = svg(cloud)
+    values = np.array([1.0, 2.0]), nothing, np.array([3.0, 4.0])
+    drawn = svg(DesignCloud("d", "D", columns, values, kinds, np.array([0, 1]), ("x", "y")))
     assert "fails a check" not in drawn
     assert all(name in drawn for name in ("front", "holds", "a [mm]", "b [N]"))

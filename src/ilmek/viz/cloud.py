@@ -1,13 +1,10 @@
 """Designs of a study as parallel coordinates: an axis for each column, a line for each design."""
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ilmek.report import DesignCloud
 from ilmek.units import parse_unit
 from ilmek.viz.lanes import ROW, WIDTH, draw_key, keys
-from ilmek.viz.looks import numbered
 from ilmek.viz.scale import span, tick_labels, ticks
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.style import AXIS, MUTED, SMALL, colour, tint, with_unit
@@ -19,13 +16,13 @@ MOST_LINES = 300
 """Largest number of designs on paper."""
 
 
-def draw_cloud(cloud: DesignCloud, looks: Mapping[str, int]) -> Sheet:
+def draw_cloud(cloud: DesignCloud) -> Sheet:
     """The sheet: the first kinds lie over the later ones, which are paler."""
     used = [number for number in range(len(cloud.kinds)) if (cloud.kind == number).any()]
     entries = keys([(number, cloud.kinds[number]) for number in used], _SIDE / 2)
     top = _NAMES + ROW * (1 + max((row for _, row, _ in entries), default=0))
     sheet = Sheet(WIDTH, _BOTTOM + HEIGHT + top)
-    shades = [colour(number) for number in numbered(cloud.kinds, looks)]
+    shades = [colour(number) for number in cloud.looks]
     for number, row, left in entries:
         draw_key(sheet, cloud.kinds[number], shades[number], complex(left, sheet.height - 4.0 - ROW * (row + 0.5)))
     across = np.linspace(_SIDE, WIDTH - _SIDE, len(cloud.columns))

@@ -90,7 +90,7 @@ export function keptOf(cloud: ShownCloud, brushes: Brushes, hidden: ReadonlySet<
       const value = cloud.values[column]?.[design];
       return value != null && value >= low && value <= high;
     });
-  return cloud.kind.flatMap((kind, design) => (!hidden.has(kind) && inside(design) ? [design] : []));
+  return cloud.kind.flatMap((kind, design) => (kind !== null && !hidden.has(kind) && inside(design) ? [design] : []));
 }
 
 interface Shown {
@@ -234,8 +234,8 @@ function paintAxis(
   context.font = SMALL;
   context.textAlign = "left";
   context.textBaseline = "middle";
-  const factor = parseUnit(axis.shown_unit)?.factor ?? 1;
-  const made = ticks({ low: span.low / factor, high: span.high / factor }, axis.shown_unit, 5);
+  const factor = parseUnit(axis.unit)?.factor ?? 1;
+  const made = ticks({ low: span.low / factor, high: span.high / factor }, axis.unit, 5);
   tickLabels(made).forEach((label, k) => {
     const y = axisY(field, span, (made[k] ?? 0) * factor);
     context.fillStyle = shades.paper;
@@ -248,7 +248,7 @@ function paintAxis(
   context.fillStyle = shades.ink;
   context.textAlign = "center";
   const room = (2 * (field.width - 2 * SIDE)) / Math.max(cloud.columns.length - 1, 1) - 8;
-  const name = withUnit(axis.label, axis.shown_unit);
+  const name = withUnit(axis.label, axis.unit);
   const half = Math.min(context.measureText(name).width, room) / 2 + 2;
   const middle = Math.min(Math.max(x, half), field.width - half);
   context.fillText(name, middle, column % 2 === 0 ? 8 : 22, Math.max(room, 60));
@@ -291,7 +291,7 @@ function Chosen({ cloud, design }: { cloud: ShownCloud; design: number }) {
         {cloud.columns.map((axis, column) => (
           <div key={axis.label}>
             <dt>{axis.label}</dt>
-            <dd>{formatQuantity(cloud.values[column]?.[design] ?? Number.NaN, axis.shown_unit)}</dd>
+            <dd>{formatQuantity(cloud.values[column]?.[design] ?? Number.NaN, axis.unit)}</dd>
           </div>
         ))}
         <div>

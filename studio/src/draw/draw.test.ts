@@ -34,7 +34,7 @@ describe("ticks", () => {
 });
 
 describe("designs of a study", () => {
-  const axis = { label: "a", shown_unit: "mm" };
+  const axis = { label: "a", unit: "mm" };
   const cloud = {
     columns: [axis, axis],
     values: [
@@ -44,7 +44,7 @@ describe("designs of a study", () => {
     kinds: ["front", "holds"],
     looks: [0, 1],
   };
-  const all = { ...cloud, kind: [0, 1, 1], commands: ["", "", ""] };
+  const all = { ...cloud, kind: [0, 1, 1], commands: ["", "", ""], name: "", title: "", note: "" };
   it("are left out by a range, by a value that they lack, and by their kind", () => {
     expect(keptOf(all, new Map(), new Set())).toEqual([0, 1, 2]);
     expect(keptOf(all, new Map([[0, { low: 1, high: 2 }]]), new Set())).toEqual([0, 1]);
@@ -90,8 +90,15 @@ describe("the shared cursor", () => {
 });
 
 const CRANK: ShownAnimation = {
-  still: { strokes: [], dots: [{ at: [0, 0], label: "A", role: "pivot" }], shown_unit: "mm" },
-  drive: { label: "crank angle", shown_unit: "deg" },
+  still: {
+    name: "",
+    title: "",
+    note: "",
+    strokes: [],
+    dots: [{ at: [0, 0], label: "A", role: "pivot", along: [1, 0] }],
+    unit: "mm",
+  },
+  drive: { label: "crank angle", unit: "deg" },
   at: [0, 90 * DEGREE, 180 * DEGREE, 270 * DEGREE],
   tracks: [
     [0, 0, 0, 0, 0, 0, 0, 0],
@@ -99,7 +106,7 @@ const CRANK: ShownAnimation = {
   ],
   shapes: [{ tracks: [0, 1], shape: [], role: "link", label: "crank", closed: false, look: 0 }],
   points: [],
-  readings: [{ label: "height", shown_unit: "m", values: [0, 1, 0, -1] }],
+  readings: [{ label: "height", unit: "m", values: [0, 1, 0, -1] }],
   closes: true,
   start: 0,
   period: null,

@@ -10,10 +10,12 @@ import { between, frameAt, phaseAt, rangeOf, reachOf, shapeAt, shareAt, stepsOf 
 import { type Named, paintNames } from "./names";
 import { paintScaleBar, Stage } from "./stage";
 import { byRole, paintDot, paintStroke } from "./strokes";
-import { type Extent, type Map2D, mapOf, type View, WHOLE } from "./viewport";
+import { type Extent, include, type Map2D, mapOf, type View, WHOLE } from "./viewport";
 
 interface PlayerProps {
   animation: ShownAnimation;
+  /** Another state, pale behind it. */
+  ghost?: ShownAnimation | null | undefined;
   title: string;
   height?: number | undefined;
   /** The box that is shown [m]; without it all positions that are reached. */
@@ -26,12 +28,17 @@ interface PlayerProps {
 const RUNS = [16, 8, 4, 2, 1] as const;
 
 /** A machine in motion: played, or turned by its slider, which is the cursor of all figures over the same drive. */
-export function Player({ animation, title, height = 320, extent, autoplay = false }: PlayerProps) {
+export function Player({ animation, ghost, title, height = 320, extent, autoplay = false }: PlayerProps) {
   const cursor = useCursor(animation.drive.label);
   const range = useMemo(() => rangeOf(animation), [animation]);
-  const box = useMemo(() => extent ?? reachOf(animation), [animation, extent]);
+  const box = useMemo(() => {
+    const box = extent ?? reachOf(animation);
+    const pale = ghost && extent === undefined ? reachOf(ghost) : box;
+    include(box, [pale.left, pale.low, pale.right, pale.high]);
+    return box;
+  }, [animation, ghost, extent]);
   const view = useSignal<View>(WHOLE);
-  const angle = isAngle(animation.drive.shown_unit);
+  const angle = isAngle(animation.drive.unit);
   const start = animation.at[animation.start] ?? range.low;
   const inside = () =>
     within(cursor.at.value ?? start, range.low, range.high, angle) ?? clamp(cursor.at.value ?? start, range);
@@ -39,17 +46,20 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
     (context, width, high) => {
       const map = mapOf(box, view.peek(), width, high);
       paintDrawing(context, { ...animation.still, dots: [] }, map);
-      paintScaleBar(
-        context,
-        map,
-        parseUnit(animation.still.shown_unit)?.factor ?? 1,
-        animation.still.shown_unit,
-        width,
-        high,
-      );
+      paintScaleBar(context, map, parseUnit(animation.still.unit)?.factor ?? 1, animation.still.unit, width, high);
     },
     [animation, box],
     [view],
+  );
+  const behind = useCanvas(
+    (context, width, high) => {
+      const map = mapOf(box, view.peek(), width, high);
+      for (const shape of ghost ? byRole(ghost.shapes) : []) {
+        if (ghost) paintStroke(context, shape, shapeAt(ghost, shape, frameAt(ghost, inside()), map));
+      }
+    },
+    [ghost, box],
+    [view, cursor.at],
   );
   const moving = useCanvas(
     (context, width, high) => {
@@ -63,6 +73,7 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
     <div class="fig-player">
       <Stage label={title} height={height} view={view}>
         <canvas ref={still} />
+        <canvas class="fig-ghost" ref={behind} />
         <canvas ref={moving} />
       </Stage>
       <Controls animation={animation} cursor={cursor} range={range} at={inside()} autoplay={autoplay} />
@@ -113,11 +124,11 @@ function Controls({ animation, cursor, range, at, autoplay }: ControlsProps) {
         value={at}
         min={range.low}
         max={range.high}
-        step={keyStep(range.low, range.high, animation.drive.shown_unit) / 4}
-        text={formatQuantity(at, animation.drive.shown_unit)}
+        step={keyStep(range.low, range.high, animation.drive.unit) / 4}
+        text={formatQuantity(at, animation.drive.unit)}
         onInput={(to) => moveTo(cursor, to)}
       />
-      <output>{formatQuantity(at, animation.drive.shown_unit)}</output>
+      <output>{formatQuantity(at, animation.drive.unit)}</output>
       <select
         class="ui-input"
         aria-label={t("figure.speed")}
@@ -170,7 +181,7 @@ function Readings({ animation, at }: { animation: ShownAnimation; at: number }) 
           <dd>
             {formatQuantity(
               quiet(between(reading.values, frame, animation.at.length, 1, 0), greatestOf([reading.values])),
-              reading.shown_unit,
+              reading.unit,
             )}
           </dd>
         </div>

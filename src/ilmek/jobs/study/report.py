@@ -245,7 +245,7 @@ def _cloud(found: StudyResult) -> DesignCloud:
     kind[np.isin(shown, found.front)] = 0
     variables = [Axis(v.name, v.unit if v.continuous else "") for v in found.variables]
     columns = (*variables, *(Axis(name, found.units[name]) for name in found.results))
-    values = np.column_stack([rows.points[shown], rows.results[shown]]).T
+    values = tuple(np.column_stack([rows.points[shown], rows.results[shown]]).T)
     commands = tuple(found.command(number) for number in shown.tolist())
     return DesignCloud("study-designs", "Designs", columns, values, named, kind, commands)
 

@@ -6,7 +6,6 @@ from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
 from ilmek.io.data_text import read_data
@@ -93,7 +92,7 @@ class MechanismTarget:
     which it lies, `side.PIN` [rad] in the frame of the pin's second body: links without mass of that length.
     """
 
-    data: Mapping[str, Any]
+    data: Mapping[str, object]
     digest: str
     request: MotionRequest
 

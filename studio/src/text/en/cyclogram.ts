@@ -1,7 +1,6 @@
 /** Texts of the view "cyclogram". */
 export default {
   title: "Cyclogram",
-  lead: "Motions over the master angle: drag their beginnings, ends and levels.",
   file: "Cyclogram",
   ofMachine: "From a machine",
   ofMachineHelp: "The machine is designed with its default settings, and its cyclogram is written into the project.",
@@ -106,6 +105,4 @@ export default {
   limit: "{value}, limit {limit}",
   holds: "holds",
   violated: "violated",
-  failing: "{count} of {all} violated",
-  allHold: "All hold",
 } as const;
