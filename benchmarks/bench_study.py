@@ -17,12 +17,14 @@ import numpy as np
 from ilmek import four_bar, solve
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.io.mechanism_file import mechanism_of_data, mechanism_of_values
+from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.study.order import StudyOrder
 from ilmek.jobs.study.run import study
+from ilmek.jobs.study.targets import TOGETHER, MechanismTarget
 from ilmek.params import Value
 from ilmek.records import record
 from ilmek.report import at_most
-from ilmek.studies.outcome import Numbers, Question
+from ilmek.studies.outcome import Numbers, Question, evaluated
 from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
 from ilmek.studies.store import StudyFile
@@ -40,6 +42,12 @@ class Product:
     @property
     def identity(self) -> Mapping[str, object]:
         """Its name."""
+        return {}
+
+    together = 1
+
+    def numbers_together(self, _designs: object, _results: object) -> dict[int, Numbers]:
+        """None: each design is evaluated alone."""
         return {}
 
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
@@ -101,6 +109,12 @@ def arrays() -> None:
     start = time.process_time()
     file.vary(a=np.linspace(0.04, 0.06, 200))
     print(f"four-bar, read from its file: {200 / (time.process_time() - start):,.0f} designs/s")
+    question = Question(MechanismTarget(FOUR_BAR, "", MotionRequest({})), ("drive_torque_max",))
+    designs = [{"a": float(crank)} for crank in np.linspace(0.04, 0.06, 256)]
+    start = time.process_time()
+    for first in range(0, len(designs), TOGETHER):
+        evaluated(question, designs[first : first + TOGETHER])
+    print(f"four-bar, forces and checks of a study: {len(designs) / (time.process_time() - start):,.0f} designs/s")
     start = time.process_time()
     for crank in np.linspace(0.04, 0.06, 20):
         machine = mechanism_of_values(FOUR_BAR, {"a": float(crank)}).machine

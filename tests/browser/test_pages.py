@@ -8,8 +8,9 @@ from default_machines import default_page, default_report, page_data
 from playwright.sync_api import Browser, Page, expect
 from studio_browser import Seen, context_of, violations
 
-from ilmek.report import Animation, Plot
+from ilmek.report import Animation, Axis, DesignCloud, Plot, Report
 from ilmek.units import deg, mm
+from ilmek.viz.page import machine_page
 
 
 def opened(page: Page, seen: Seen, folder: Path, machine: str) -> list[dict[str, object]]:
@@ -105,5 +106,37 @@ def test_a_cyclogram_tells_position_velocity_and_acceleration_at_the_cursor(
         before = path.get_attribute("d")
         figure.locator(".fig-orders").get_by_role("button", name="Acceleration").click()
         expect(path).not_to_have_attribute("d", before or "")
+        assert violations(page) == []
+    assert seen.faults == []
+
+
+def test_designs_of_a_study_are_kept_by_ranges_and_have_their_command(
+    browser: Browser, seen: Seen, tmp_path: Path
+) -> None:
+    values = np.array([0.01, 0.02, 0.03, 0.04]), np.array([4.0, 3.0, 2.0, 1.0])
+    columns, commands = (Axis("crank", "mm"), Axis("torque", "N*m")), tuple(f"ilmek design {n}" for n in "abcd")
+    cloud = DesignCloud("d", "Designs", columns, values, ("front", "holds"), np.array([1, 0, 0, 1]), commands)
+    file = tmp_path / "study.html"
+    file.write_text(machine_page(Report("study", "Study", {}, (), (), figures=(cloud,))), encoding="utf-8")
+    with context_of(browser) as context:
+        page = context.new_page()
+        seen.watch(page, file.as_uri())
+        page.goto(file.as_uri())
+        designs = page.get_by_role("application", name="Designs")
+        designs.scroll_into_view_if_needed()
+        expect(designs.get_by_text("4 of 4 designs")).to_be_visible()
+        box = designs.locator(".fig-field").first.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + 64, box["y"] + 20)  # the first axis, its upper half
+        page.mouse.down()
+        page.mouse.move(box["x"] + 64, box["y"] + 140, steps=3)
+        page.mouse.up()
+        expect(designs.get_by_text("2 of 4 designs")).to_be_visible()
+        designs.focus()
+        page.keyboard.press("ArrowRight")
+        expect(designs.locator("pre")).to_have_text("ilmek design c")
+        page.keyboard.press("Escape")
+        designs.get_by_role("button", name="holds (2)").click()
+        expect(designs.get_by_text("2 of 4 designs")).to_be_visible()
         assert violations(page) == []
     assert seen.faults == []

@@ -1,7 +1,11 @@
 """Results files of studies: the same bits however they come about; designs that fail, hang or end their process."""
 
 import sqlite3
+from collections.abc import Callable
+from concurrent.futures import Future
+from contextlib import nullcontext
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +20,7 @@ from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
 from ilmek.studies.store import StudyFile
 from ilmek.studies.variable import Variable
-from ilmek.studies.workers import Workers
+from ilmek.studies.workers import Design, Workers
 
 VARIABLES = (Variable("x", "mm", 0.5, 1.0, 0.6), Variable("y", "", 0.0, 2.0, 0.0, choices=("a", "b", "c")))
 
@@ -128,6 +132,42 @@ def test_a_file_with_other_designs_is_refused(tmp_path: Path) -> None:
     base.close()
     with pytest.raises(ParameterError, match="other designs"):
         carried_out(tmp_path / "s.sqlite", 10)
+
+
+def test_a_cluster_that_goes_away_is_an_error_that_keeps_what_is_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Leaving(nullcontext[None]):
+        """A client whose cluster answers for the designs of a first block alone."""
+
+        left = 256
+
+        def __enter__(self) -> "Leaving":  # type: ignore[override]
+            return self
+
+        def get_executor(self, *, pure: bool) -> "Leaving":
+            assert not pure
+            return self
+
+        def submit(self, function: Callable[..., list[Outcome]], question: Question, designs: list[Design]) -> Any:
+            answer: Future[list[Outcome]] = Future()
+            self.left -= len(designs)
+            if self.left >= 0:
+                answer.set_result(function(question, designs))
+            else:
+                answer.set_exception(OSError("the scheduler is closed"))
+            return answer
+
+    monkeypatch.setattr("ilmek.studies.workers.cluster_client", lambda _: Leaving())
+    question = Question(FunctionTarget("stack"), ("gap",))
+    points = sampled(VARIABLES[:1], "sobol", 300, 3)
+    with StudyFile(tmp_path / "s.sqlite", {}, ["x"], ["gap"]) as file:
+        with (
+            Workers(question, cluster="tcp://there") as running,
+            pytest.raises(ParameterError, match=r"go on with --resume"),
+        ):
+            DesignRecorder(file, VARIABLES[:1], running, 300)(points)
+        assert len(file) == 256
 
 
 def test_a_full_disc_is_an_error_that_keeps_what_is_there(tmp_path: Path) -> None:

@@ -14,9 +14,14 @@ from ilmek import four_bar, read_mechanism, slider_crank, solve
 from ilmek.dynamics.inverse_run import InverseRun, inverse_run
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_of_values
+from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.study.order import StudyOrder
+from ilmek.jobs.study.run import study
+from ilmek.jobs.study.targets import FEW, read_target
 from ilmek.linkage.structure import plan
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.linkage.variants import with_points
+from ilmek.studies.outcome import Hold, Question, evaluated
 
 TURN = np.linspace(0.0, 2 * np.pi, 37)
 
@@ -129,3 +134,38 @@ def test_wrong_variants_are_errors() -> None:
         press.vary(strok=[0.06])
     with pytest.raises(MechanismError, match="joint friction"):
         press.vary(stroke=[0.06]).evaluate(want=["drive_torque_max"])
+
+
+WANTED = ("drive_torque_rms", "pin_forces_max", "pin_forces_max.B", "frame_force_max", "transmission_angle_min")
+
+
+@settings(max_examples=5, deadline=None)
+@given(st.lists(st.tuples(st.floats(0.02, 0.12), st.floats(0.15, 0.25)), min_size=2, max_size=8))
+def test_designs_of_a_study_are_those_one_by_one(designs: list[tuple[float, float]]) -> None:
+    """Cranks that turn, that stand near a dead centre and that close in part: results, checks, margins, reasons."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "four_bar.toml"
+        path.write_text(FOUR_BAR)
+        target = read_target(str(path), {}, MotionRequest({}))
+    question = Question(target, WANTED, (Hold("drive_torque_rms", "<=", 0.2, "N*m"),))
+    values = [{"a": a, "b": b} for a, b in (*designs, *((0.06, 0.2 + 1e-3 * n) for n in range(FEW)))]
+    together = evaluated(question, values)
+    alone = [evaluated(question, [one])[0] for one in values[: len(designs) + 1]]
+    for ours, theirs in zip(together, alone, strict=False):
+        assert (ours.status, ours.reason, ours.failed) == (theirs.status, theirs.reason, theirs.failed)
+        np.testing.assert_allclose(ours.results, theirs.results, rtol=1e-12)
+        assert (ours.margins or {}).keys() == (theirs.margins or {}).keys()
+        for name, margin in (ours.margins or {}).items():
+            np.testing.assert_allclose(margin, (theirs.margins or {})[name], rtol=1e-11, atol=1e-12)
+    assert len(designs) in target.numbers_together(values, WANTED)
+
+
+def test_designs_on_a_cluster_are_those_of_this_process(tmp_path: Path) -> None:
+    """Blocks of arrays are the same, so that the results are, to the last bit."""
+    distributed = pytest.importorskip("distributed")
+    path = tmp_path / "four_bar.toml"
+    path.write_text(FOUR_BAR)
+    order = StudyOrder(str(path), {}, {"a": "40mm..60mm"}, ("drive_torque_rms",), samples=80)
+    with distributed.LocalCluster(2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        there = study(order, cluster=cluster.scheduler_address)
+    assert there.digest == study(order).digest

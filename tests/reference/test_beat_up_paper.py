@@ -3,10 +3,14 @@
 The paper's misprints are named where they are met, with the right value beside them.
 """
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import ilmek
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
+from ilmek.num.pareto import front
 from ilmek.synthesis.crank_rocker.dead_centres import (
     LinkRatios,
     best_ratio,
@@ -92,6 +96,31 @@ def test_five_rows_of_table_1_meet_both_criteria() -> None:
     # The paper calls beta = 48 deg the least deviation of mu from 90 deg; that would be 10 deg. It is the largest r/l.
     assert max(good, key=lambda row: cells[*row, "mu"]) == (180, 10)
     assert max(good, key=lambda row: cells[*row, "r/l"]) == (180, 48)
+
+
+def test_the_front_of_the_rows_of_table_1_is_that_of_its_printed_numbers(tmp_path: Path) -> None:
+    """As a study of a table of designs; the two rows at change points are refused."""
+    printed = {cell: float(text) for cell, text in table_1()}
+    rows = sorted({cell[:2] for cell in printed} - {(120, 75), (120, 60)})
+    wanted = {(*row, "r/l"): -printed[*row, "r/l"] for row in rows}
+    best = {
+        row
+        for row in rows
+        if not any(
+            printed[*other, "mu"] >= printed[*row, "mu"]
+            and wanted[*other, "r/l"] >= wanted[*row, "r/l"]
+            and other != row
+            for other in rows
+        )
+    }
+    table = tmp_path / "rows.csv"
+    lines = [f"{phi}deg,{beta}deg" for phi, beta in [*rows, (120, 75)]]
+    table.write_text("\n".join(["crank_rotation,beta", *lines]))
+    goals = ["most transmission_angle_min", "crank_coupler_ratio"]
+    found = ilmek.study("beat-up", {}, designs=table, fixed={"swing": SWING, "members": 10}, goals=goals)
+    assert found.reasons[0][0] == "refused"
+    costs = np.column_stack([-found.values("transmission_angle_min"), found.values("crank_coupler_ratio")])[:-1]
+    assert {rows[number] for number in np.flatnonzero(front(costs))} == best
 
 
 @pytest.mark.parametrize(

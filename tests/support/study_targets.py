@@ -29,6 +29,12 @@ class FunctionTarget:
         """Its name."""
         return {"function": self.function}
 
+    together = 1
+
+    def numbers_together(self, _designs: object, _results: object) -> dict[int, Numbers]:
+        """None: each design is evaluated alone."""
+        return {}
+
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """Results f, g, and a check."""
         x = _numbers(values)
@@ -131,6 +137,37 @@ def vessel_of(x: list[float]) -> Numbers:
         ("head", -head, -0.00954 * radius),
         ("volume", -volume, -1_296_000.0),
     )
+
+
+def beam_of(x: list[float]) -> Numbers:
+    """Welded beam of least cost: 1.724852 at (0.205730, 3.470489, 9.036624, 0.205730) [Ragsdell and Phillips 1976]."""
+    weld, length, height, thick = x
+    force, arm, modulus, shear = 6000.0, 14.0, 30e6, 12e6
+    moment, radius = force * (arm + length / 2), math.hypot(length / 2, (weld + height) / 2)
+    polar = 2 * math.sqrt(2) * weld * length * (length**2 / 12 + ((weld + height) / 2) ** 2)
+    first, second = force / (math.sqrt(2) * weld * length), moment * radius / polar
+    stress = math.sqrt(first**2 + first * second * length / radius + second**2)
+    buckling = 4.013 * modulus * math.sqrt(height**2 * thick**6 / 36) / arm**2
+    buckling *= 1 - height / (2 * arm) * math.sqrt(modulus / (4 * shear))
+    return _of(
+        {"f": 1.10471 * weld**2 * length + 0.04811 * height * thick * (arm + length)},
+        ("shear", stress, 13_600.0),
+        ("bending", 6 * force * arm / (thick * height**2), 30_000.0),
+        ("weld", weld, thick),
+        ("deflection", 4 * force * arm**3 / (modulus * height**3 * thick), 0.25),
+        ("buckling", -buckling, -force),
+    )
+
+
+def cantilever_of(x: list[float]) -> Numbers:
+    """Stepped cantilever of least weight: 1.339956 [Fleury and Braibant 1986; Chickermane and Gea 1996]."""
+    bending = sum(k / h**3 for k, h in zip((61, 37, 19, 7, 1), x, strict=True))
+    return _of({"f": 0.0624 * sum(x)}, ("deflection", bending, 1.0))
+
+
+def gears_of(x: list[float]) -> Numbers:
+    """Gear train nearest to the ratio 1 / 6.931, teeth 12 to 60: 2.7e-12 by 16, 19, 43, 49 [Sandgren 1990]."""
+    return _of({"f": (1 / 6.931 - x[0] * x[1] / (x[2] * x[3])) ** 2})
 
 
 def stack_of(x: list[float]) -> Numbers:

@@ -11,7 +11,7 @@ from ilmek.jobs.design import design_machine
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.machine.figures import TablesRequest, tables
 from ilmek.records import JsonObject, json_value
-from ilmek.report import Animation, Gantt, Plot, StackedBars, Timing
+from ilmek.report import Animation, DesignCloud, Gantt, Plot, StackedBars, Timing
 from ilmek.report.figure import Axis, GanttLane, Lane, Series
 from ilmek.viz.plain import ShownFigure, rounded, shown_figures
 from ilmek.web.schema import messages
@@ -107,9 +107,14 @@ def test_every_kind_of_figure() -> None:
             Timing("t", "Cyclogram", 2.0, (Lane("shed", "cam", 2 * np.pi * axis, axis),)),
             Gantt("g", "Heads", time, (GanttLane("1", axis[:2], axis[1:3], np.array([0, 1])),), ("ties", "waits")),
             StackedBars("b", "Times", time, ("row",), ("a", "b"), (np.array([1.0, np.nan]),)),
+            DesignCloud(
+                "d", "Designs", (time, time), tuple(np.eye(2)), ("front", "holds"), np.array([0, 1]), ("x", "y")
+            ),
         )
     )
-    assert [one.name for each in made for one in (each.plot, each.timing, each.gantt, each.bars) if one] == [*"ptgb"]
+    assert [
+        one.name for each in made for one in (each.plot, each.timing, each.gantt, each.bars, each.cloud) if one
+    ] == [*"ptgbd"]
     assert made[0].plot is not None
     assert len(made[0].plot.series[0].x) <= 720
     assert made[3].bars is not None

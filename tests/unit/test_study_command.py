@@ -9,6 +9,7 @@ from processes import ended, ilmek
 from study_targets import FOUR_BAR
 
 from ilmek.cli import main
+from ilmek.units import deg
 
 SWING = ("--vary", "swing=28deg..32deg")
 TOLERANCE = ("--vary", "swing=30deg+-0.2deg", "--method", "tolerance", "--record", "drive_torque_max")
@@ -46,6 +47,37 @@ def test_bad_words_are_one_error(words: tuple[str, ...], said: str) -> None:
     assert len(found.stderr.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    ("table", "words", "said"),
+    [
+        ("swinge\n30deg\n", (), "did you mean 'swing'?"),
+        ("swing\n30deg\n400deg\n", (), "line 3: swing=400 deg is out of bounds"),
+        ("swing,speed\n30deg\n", (), "line 2: 1 cell"),
+        ("swing\n", (), "no row below the headings"),
+        ("swing\n30deg\n", SWING, "--designs with --vary"),
+        ("swing\n30deg\n", ("--set", "swing=30deg"), "varies and is set"),
+    ],
+)
+def test_bad_tables_of_designs_are_one_error(tmp_path: Path, table: str, words: tuple[str, ...], said: str) -> None:
+    file = tmp_path / "designs.csv"
+    file.write_text(table)
+    found = call("--designs", str(file), *words)
+    assert (found.exit_code, len(found.stderr.splitlines())) == (2, 1)
+    assert said in found.stderr
+
+
+def test_designs_of_a_table_are_those_of_its_rows(tmp_path: Path) -> None:
+    """What a study wrote as a table is read again: plain numbers are SI."""
+    file = tmp_path / "designs.csv"
+    file.write_text("# two of three\nswing;link_mass\n0.5;made\n31deg;bars\n")
+    found = json.loads(call("--designs", str(file), *GOAL, "--json", "-").stdout)
+    assert (found["samples"], found["done"]) == (2, 2)
+    assert found["best"]["parameters"] in (
+        {"swing": 0.5, "link_mass": "made"},
+        {"swing": 31 * deg, "link_mass": "bars"},
+    )
+
+
 def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     out, table, page = tmp_path / "s.sqlite", tmp_path / "s.csv", tmp_path / "s.html"
     words = (*SWING, *GOAL, "--sampling", "grid", "--samples", "3", "--out", str(out))
@@ -55,6 +87,7 @@ def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     assert found["best"]["parameters"]["swing"] == pytest.approx(0.4886921905584123)
     assert table.read_text().splitlines()[0] == "swing,drive_torque_max,failed,worst"
     assert "drive_torque_max over swing" in page.read_text()
+    assert "Designs" in page.read_text()
     again = call(*words, "--resume", "--json", "-")
     assert json.loads(again.stdout)["digest"] == found["digest"]
     assert "exists" in call(*words).stderr

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from ilmek.report import Axis, Gantt, GanttLane, StackedBars
+from ilmek.report import Axis, DesignCloud, Gantt, GanttLane, StackedBars
 from ilmek.viz.svg import svg
 
 
@@ -50,3 +50,12 @@ def test_charts_without_anything_are_drawn() -> None:
     empty = GanttLane("head 1", np.empty(0), np.empty(0), np.empty(0, np.int64))
     assert "<svg" in svg(Gantt("g", "Heads", Axis("time", "h"), (empty,), ("weaves",)))
     assert "<svg" in svg(StackedBars("b", "Uses", Axis("time", "s"), ("a",), ("x",), (np.zeros(1),)))
+
+
+def test_a_cloud_has_a_line_a_design_and_one_that_lacks_a_value_has_a_gap() -> None:
+    columns, nothing = (Axis("a", "mm"), Axis("b", "N"), Axis("c")), np.full(2, np.nan)
+    kinds = ("front", "holds", "fails a check")
+    values = np.array([1.0, 2.0]), nothing, np.array([3.0, 4.0])
+    drawn = svg(DesignCloud("d", "D", columns, values, kinds, np.array([0, 1]), ("x", "y")))
+    assert "fails a check" not in drawn
+    assert all(name in drawn for name in ("front", "holds", "a [mm]", "b [N]"))

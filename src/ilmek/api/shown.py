@@ -33,14 +33,27 @@ from ilmek.linkage.motion import Motion, free_points, moving_points
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.report import Animation, Axis, Check, Dot, Drawing, Figure, Gantt, Plot, Report, StackedBars, Timing
+from ilmek.report import (
+    Animation,
+    Axis,
+    Check,
+    DesignCloud,
+    Dot,
+    Drawing,
+    Figure,
+    Gantt,
+    Plot,
+    Report,
+    StackedBars,
+    Timing,
+)
 from ilmek.report.framed import Framed, RecordTable
 from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import draw_carpet
 from ilmek.viz.page import machine_page
 from ilmek.viz.svg import svg
 
-FIGURES = (Plot, Drawing, Animation, Timing, Gantt, StackedBars)
+FIGURES = (Plot, Drawing, Animation, Timing, Gantt, StackedBars, DesignCloud)
 """Records that are figures themselves."""
 
 FIRST = 12

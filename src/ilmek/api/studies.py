@@ -30,6 +30,7 @@ def study(
     correlate: Sequence[str] = (),
     yield_target: float = 0.0,
     costs: Mapping[str, float] = MappingProxyType({}),
+    designs: str | Path | None = None,
     file: str | Path | None = None,
     workers: int = 1,
     cluster: str | None = None,
@@ -45,6 +46,7 @@ def study(
     sampling  sobol, latin, grid                             samples  number of designs; default: by the method
     correlate  correlations of tolerances, "a, b = 0.8"
     yield_target  find the tolerances of least cost for it [1]     costs  variable -> relative cost of its tolerance
+    designs   table of the designs (CSV), a column a parameter, in place of ranges: vary is then {}
     file      results file (SQLite); designs that it has are not computed again; default: none is kept
     workers   processes                                      cluster  address of a Dask scheduler
     The results are arrays: `values(name)`, `table()`, `frame()`, `rows.feasible`, `front`. Raises ParameterError for
@@ -70,6 +72,7 @@ def study(
         correlate=given.sequence("correlate", correlate, str),
         yield_target=given.number("yield_target", yield_target),
         costs=given.mapping("costs", costs, given.number),
+        designs="" if designs is None else str(given.path("designs", designs)),
     )
     kept = None if file is None else given.path("file", file)
     address = None if cluster is None else given.text("cluster", cluster)

@@ -41,6 +41,7 @@ follow: uniform, normal, triangular).
 @click.option(
     "--vary", multiple=True, metavar="NAME=RANGE", help="Vary a parameter, or an entry of [values] of a file."
 )
+@text_option("--designs", "FILE.csv", "Take the designs of a table instead of ranges: a column a parameter.")
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter that does not vary.")
 @click.option("--goal", "goals", multiple=True, metavar="[most] RESULT", help="A result to make least, or most.")
 @click.option("--hold", "holds", multiple=True, metavar="'RESULT >= VALUE'", help="A limit, beside the checks.")
@@ -141,6 +142,7 @@ def _order(
         correlate=tuple(stated["correlate"]),
         yield_target=read_yield(stated["yield_target"]) if stated["yield_target"] else 0.0,
         costs=read_costs(stated["costs"]),
+        designs=stated["designs"] or "",
     )
 
 

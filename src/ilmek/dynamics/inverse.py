@@ -187,8 +187,15 @@ class Forces(Framed):
         """Greatest power residual, relative to the greatest sum of the powers' magnitudes [1]; NaN samples left out."""
         size = np.abs(self.input_power) + np.abs(self.load_power) + np.abs(self.kinetic_rate)
         usable = np.isfinite(size)
-        top = float(np.max(size[usable], initial=0.0))
-        return float(np.max(np.abs(self.power_residual[usable]), initial=0.0)) / top if top else 0.0
+        top, most = (
+            np.max(np.where(usable, np.abs(one), 0.0), axis=-1, initial=0.0) for one in (size, self.power_residual)
+        )
+        return plain(np.divide(most, top, where=top > 0, out=np.zeros(np.shape(top))))
+
+
+def plain(value: RealField) -> float:
+    """A number of one mechanism as such; of several variants the array."""
+    return value if np.ndim(value) else float(value)
 
 
 def inverse(

@@ -10,14 +10,13 @@ the whole compares the force on the frame, summed over joints and drives, with l
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.balance import Shaking, on_frame, shaking
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.inverse import MASSLESS, Forces, inverse, joint_rate
+from ilmek.dynamics.inverse import MASSLESS, Forces, inverse, joint_rate, plain
 from ilmek.dynamics.loads import Gravity, Load
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.dynamics.pose_block import characteristic_length
@@ -88,7 +87,7 @@ class InverseRun:
         if kind == "peak":
             return greatest(effort)
         value = rms(effort, self.time) if kind == "rms" else mean(effort, self.time)
-        return _plain(np.where(np.abs(value) <= ROUNDING * greatest(effort), 0.0, value))
+        return plain(np.where(np.abs(value) <= ROUNDING * greatest(effort), 0.0, value))
 
     @computed("N", "greatest force of each pin", shown=False)
     def pin_forces_max(self) -> dict[str, float]:
@@ -133,12 +132,12 @@ class InverseRun:
             return None
         if self.time is None:
             drive = self.forces.motion.drives.get(str(self.driver))
-            return None if drive is None else _plain(np.trapezoid(self.effort, np.asarray(drive.value)))
+            return None if drive is None else plain(np.trapezoid(self.effort, np.asarray(drive.value)))
         power = self.effort * self.forces.rate(str(self.driver))
         # Samples may run against time: over a descending range, or at a negative speed.
         work = np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time)
         small = np.abs(work) < NO_WORK * np.abs(np.trapezoid(np.abs(power), self.time))
-        return _plain(np.where(small, 0.0, work))
+        return plain(np.where(small, 0.0, work))
 
     @computed("W", "greatest power of the drives", optional=True)
     def drive_power_max(self) -> float | None:
@@ -219,7 +218,7 @@ def _misfit(
         sizes = np.array([greatest(size), greatest(turn_size) + reach * greatest(size)])
         gaps = np.array([greatest(frame.force - force), greatest(frame.moment - moment)])
     usable = np.isfinite(gaps) & np.isfinite(sizes) & (sizes > 0)
-    return float(np.max(gaps[usable] / sizes[usable], initial=0.0))
+    return plain(np.max(np.divide(gaps, sizes, where=usable, out=np.zeros(gaps.shape)), axis=0))
 
 
 def greatest(values: np.ndarray) -> float:
@@ -229,7 +228,7 @@ def greatest(values: np.ndarray) -> float:
     3.0
     """
     size = np.abs(values)
-    return _plain(np.fmax.reduce(np.where(np.isfinite(size), size, np.nan), axis=-1, initial=np.nan))
+    return plain(np.fmax.reduce(np.where(np.isfinite(size), size, np.nan), axis=-1, initial=np.nan))
 
 
 def mean(values: FloatArray, time: FloatArray | None) -> float:
@@ -240,7 +239,7 @@ def mean(values: FloatArray, time: FloatArray | None) -> float:
     """
     usable = np.isfinite(values)
     if time is not None and usable.all() and values.shape[-1] > 1:
-        return _plain(np.trapezoid(values, time) / (time[-1] - time[0]))
+        return plain(np.trapezoid(values, time) / (time[-1] - time[0]))
     if values.ndim > 1:
         return np.array([mean(row, time) for row in values])  # type: ignore[return-value]
     return float(np.mean(values[usable])) if usable.any() else float("nan")
@@ -248,9 +247,4 @@ def mean(values: FloatArray, time: FloatArray | None) -> float:
 
 def rms(values: FloatArray, time: FloatArray | None) -> float:
     """Root mean square over time; see `mean`."""
-    return _plain(np.sqrt(mean(values**2, time)))
-
-
-def _plain(value: Any) -> float:
-    """A number of one mechanism as such; of several variants the array."""
-    return value if np.ndim(value) else float(value)
+    return plain(np.sqrt(mean(values**2, time)))

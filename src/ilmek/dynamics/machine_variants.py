@@ -31,9 +31,6 @@ from ilmek.linkage.variants import (
 from ilmek.records import layout, with_fields
 from ilmek.units import turn as full_turn
 
-OVERALL = ("frame_residual", "power_residual", "undetermined")
-"""Results of `InverseRun` that are one for all variants."""
-
 
 class MachineVariants:
     """Variants of a machine; `MechanismFile.vary` makes them.
@@ -48,6 +45,11 @@ class MachineVariants:
     @cached_property
     def _plan(self) -> Any:
         return plan(self.machines[0].mechanism)
+
+    @property
+    def stacked(self) -> OwnMachine:
+        """All as one machine, see `stacked_machine`."""
+        return stacked_machine(self.machines)
 
     def evaluate(
         self, turn: int = 73, *, want: Sequence[str], values: RealField | None = None, speed: float | None = None
@@ -78,23 +80,24 @@ class MachineVariants:
 
         def results(part: slice) -> Iterator[np.ndarray]:
             both = stacked_machine(self.machines[part])
-            motion = variant_motion(
+            motion, margin = variant_motion(
                 self._plan, varied_points(both, machine.mechanism, len(self.machines[part])), samples, rate
             )
             time = (samples - samples[0]) / rate if rate else None
             run = (
                 inverse_run(with_fields(both, mechanism=motion.plan.mechanism), motion, name, time) if loaded else None
             )
+            yield margin
             yield np.mean(motion.status == Status.OK, axis=-1)
             for one in want:
                 yield motion_result(motion, one) if one in moved else run_result(run, one, len(motion))
 
-        closes, *found = in_blocks(results, self.given, len(samples), BLOCK)
-        return VariantResults(self.given, samples, closes, dict(zip(want, found, strict=True)))
+        margin, closes, *found = in_blocks(results, self.given, len(samples), BLOCK)
+        return VariantResults(self.given, samples, closes, margin, dict(zip(want, found, strict=True)))
 
     def _loaded_names(self) -> tuple[str, ...]:
         joints = [joint.name for joint in self.machines[0].mechanism.joints]
-        names = [one.name for _, one, _ in layout(InverseRun) if one is not None and one.name not in OVERALL]
+        names = [one.name for _, one, _ in layout(InverseRun) if one is not None and one.name != "undetermined"]
         return (*names, *(f"{name}.{joint}" for name in names for joint in joints))
 
 

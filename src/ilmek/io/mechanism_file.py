@@ -29,7 +29,7 @@ every name, every order.
 """
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -89,12 +89,9 @@ class MechanismFile:
         Raises MechanismError for a name that the file does not have, and for a variant that cannot be read.
         """
         varied = import_module("ilmek.dynamics.machine_variants").varied_machines  # the compiler
+        read = values_reader(self.data, values)
         units = {name: value_of(self.data, name)[1] for name in values}
-
-        def machine(row: Mapping[str, float]) -> OwnMachine:
-            return _read(DataText(with_values(self.data, stated(row, units)), {}, ""), "mechanism").machine
-
-        variants: MachineVariants = varied(values, units, machine)
+        variants: MachineVariants = varied(values, units, lambda row: read(row).machine)
         return variants
 
     def plan(self) -> Plan:
@@ -134,7 +131,13 @@ def value_of(data: Any, name: str) -> tuple[float, str]:
 
 def mechanism_of_values(data: Any, values: Mapping[str, object]) -> MechanismFile:
     """The mechanism of plain data with other values [SI]. Raises MechanismError with the key."""
-    return mechanism_of_data(with_values(data, stated(values, {name: value_of(data, name)[1] for name in values})))
+    return values_reader(data, values)(values)
+
+
+def values_reader(data: Any, names: Iterable[str]) -> Callable[[Mapping[str, object]], MechanismFile]:
+    """Reads the mechanism of plain data with other values of these names [SI], again and again."""
+    units = {name: value_of(data, name)[1] for name in names}
+    return lambda values: _read(DataText(with_values(data, stated(values, units)), {}, ""), "mechanism")
 
 
 def stated(values: Mapping[str, object], units: Mapping[str, str]) -> dict[str, str]:

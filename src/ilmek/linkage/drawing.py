@@ -18,6 +18,7 @@ from ilmek.linkage.model import GROUND, Joint, Mechanism, Slide
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, solvable_steps
 from ilmek.plane.vectors import cross, unit
+from ilmek.records import with_fields
 
 DRAWN = 1e-3
 """Greatest distance of a joint's points in its two bodies relative to the mechanism's size: coordinates are rounded."""
@@ -61,12 +62,12 @@ def as_drawn(mechanism: Mechanism) -> Mechanism:
 def branches_as_drawn(mechanism: Mechanism) -> dict[str, int]:
     """Joint -> branch that the drawing shows, of the groups that can be solved; others are left out."""
     names = [joint.name for joint in mechanism.joints]
-    above, _ = solvable_steps(replace(mechanism, branches=dict.fromkeys(names, +1)))
+    above, _ = solvable_steps(with_fields(mechanism, branches=dict.fromkeys(names, +1)))
     drawn = {step.bodies for step in _drawn_steps(mechanism, above) if step.free}
     signs: dict[str, int] = {}
     if not drawn:
         return signs
-    below, _ = solvable_steps(replace(mechanism, branches=dict.fromkeys(names, -1)))
+    below, _ = solvable_steps(with_fields(mechanism, branches=dict.fromkeys(names, -1)))
     bodies, size = bodies_in_pose(mechanism), _size(mechanism)
     for first, second in zip(above, below, strict=True):
         if first.bodies in drawn:

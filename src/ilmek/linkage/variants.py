@@ -76,10 +76,10 @@ class SweptGroup(Step):
 
 def variant_motion(
     planned: Plan, dimensions: Dimensions, values: InputValues, speed: InputValues, bodies: Collection[str] = ()
-) -> Motion:
-    """The motions of all variants, each field (variants, samples); arguments and errors as those of `batch.sweep`.
+) -> tuple[Motion, FloatArray]:
+    """The motions of all variants, each field (variants, samples), and the margin of each, as of `batch.Sweep`.
 
-    bodies  those that are wanted; default: all
+    bodies  those that are wanted; default: all      Arguments and errors are those of `batch.sweep`
     """
     mechanism = planned.mechanism
     ends = {body: str(anchor_name(mechanism, body)) for body in bodies or mechanism.moving}
@@ -91,7 +91,7 @@ def variant_motion(
     }
     steps = tuple(SweptGroup(step, located) for step in planned.steps)
     drives = drives_of(planned, values, speed, 0.0)
-    return Motion(Plan(varied, steps), drives, dict.fromkeys(mechanism.moving, ()), swept.status)
+    return Motion(Plan(varied, steps), drives, dict.fromkeys(mechanism.moving, ()), swept.status), swept.margin
 
 
 def with_points(mechanism: Mechanism, points: Mapping[tuple[str, str], ComplexField]) -> Mechanism:
@@ -109,11 +109,13 @@ class VariantResults(Framed):
 
     given   what varies, by name [SI], broadcast      input    values of the input [rad; m], (samples,)
     closes  share of the samples that each variant can be moved to [1]
+    margin  least distance from a dead centre over the samples that close, as of `batch.Sweep`: 0 at a dead centre [1]
     """
 
     given: Mapping[str, np.ndarray]
     input: FloatArray
     closes: FloatArray
+    margin: FloatArray
     results: Mapping[str, np.ndarray]
 
     def __getitem__(self, name: str) -> np.ndarray:
@@ -166,12 +168,13 @@ class Variants:
 
         def results(part: slice) -> Iterator[np.ndarray]:
             dimensions = {key: one[part] for key, one in self.dimensions.items()}
-            motion = variant_motion(self.plan, dimensions, samples, speed, sorted(bodies))
+            motion, margin = variant_motion(self.plan, dimensions, samples, speed, sorted(bodies))
+            yield margin
             yield np.mean(motion.status == Status.OK, axis=-1)
             yield from (motion_result(motion, name) for name in want)
 
-        closes, *found = in_blocks(results, self.given, len(samples))
-        return VariantResults(self.given, samples, closes, dict(zip(want, found, strict=True)))
+        margin, closes, *found = in_blocks(results, self.given, len(samples))
+        return VariantResults(self.given, samples, closes, margin, dict(zip(want, found, strict=True)))
 
 
 def varied(mechanism: Mechanism, points: Mapping[str, Any], lengths: Mapping[str, Any]) -> Variants:

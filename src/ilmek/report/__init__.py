@@ -12,6 +12,7 @@ from ilmek.report.document import BUILDABLE, NEAREST, Report
 from ilmek.report.figure import (
     Animation,
     Axis,
+    DesignCloud,
     Dot,
     Drawing,
     Figure,
@@ -54,6 +55,7 @@ __all__ = [
     "Column",
     "Contour",
     "DeclaredResult",
+    "DesignCloud",
     "Dot",
     "Drawing",
     "Figure",

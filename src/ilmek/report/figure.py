@@ -283,4 +283,24 @@ class StackedBars(Shown):
     looks: tuple[int, ...] = ()
 
 
-Figure: TypeAlias = Plot | Drawing | Animation | Timing | Gantt | StackedBars
+@record
+class DesignCloud(Shown):
+    """Designs of a study: each a line over all columns, and a point in each pair of them.
+
+    columns   variables, then results        values    [SI] of each column by design
+    kinds     what designs are, as on the front, or failing a check; that of each design is a number of `kind`
+    commands  that make each design
+    """
+
+    name: str
+    title: str
+    columns: tuple[Axis, ...]
+    values: tuple[FloatArray, ...]
+    kinds: tuple[str, ...]
+    kind: IntArray
+    commands: tuple[str, ...]
+    note: str = ""
+    looks: tuple[int, ...] = ()
+
+
+Figure: TypeAlias = Plot | Drawing | Animation | Timing | Gantt | StackedBars | DesignCloud

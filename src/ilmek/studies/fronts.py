@@ -1,6 +1,11 @@
-"""Several goals: the front of designs of which none is better in every goal, by NSGA-II (pymoo), and its knee."""
+"""Several goals: the front of designs of which none is better in every goal, and its knee.
+
+NSGA-II for two goals, for more NSGA-III, whose members spread over reference directions (Das and Dennis), of pymoo.
+"""
 
 from importlib import import_module
+from math import comb
+from typing import Any
 
 import numpy as np
 
@@ -17,23 +22,22 @@ LARGE = 1e30
 
 
 def evolve(variables: tuple[Variable, ...], goals: int, judge: Judge, count: int, seed: int) -> None:
-    """Ask the judge for generations of NSGA-II until `count` designs are spent; the judge records them.
+    """Ask the judge for generations until `count` designs are spent; the judge records them.
 
     Constraints are the checks: a design that holds dominates one that does not (Deb 2000). Raises ParameterError
     without the extra.
     """
+    size = max(8, min(MEMBERS, count // 4))
     try:
-        nsga2, problems = import_module("pymoo.algorithms.moo.nsga2"), import_module("pymoo.core.problem")
-        terminations = import_module("pymoo.core.termination")
+        problems, terminations = import_module("pymoo.core.problem"), import_module("pymoo.core.termination")
+        algorithm = _algorithm(goals, size)
     except ImportError:
         raise ParameterError(
             "a front of several goals needs the extra study", do="pip install 'ilmek[study]'"
         ) from None
-    size = max(8, min(MEMBERS, count // 4))
     problem = problems.Problem(n_var=len(variables), n_obj=goals, n_ieq_constr=1, xl=0.0, xu=1.0)
-    algorithm = nsga2.NSGA2(pop_size=size)
     algorithm.setup(problem, termination=terminations.NoTermination(), seed=seed, verbose=False)
-    for _ in range(max(count // size, 1)):
+    for _ in range(max(count // algorithm.pop_size, 1)):
         members = algorithm.ask()
         unit = members.get("X")
         points = np.column_stack([v.across(unit[:, n]) for n, v in enumerate(variables)])
@@ -45,6 +49,17 @@ def evolve(variables: tuple[Variable, ...], goals: int, judge: Judge, count: int
         for member in members:
             member.evaluated.update({"F", "G", "H"})
         algorithm.tell(infills=members)
+
+
+def _algorithm(goals: int, size: int) -> Any:
+    """The algorithm for a number of goals and members."""
+    if goals == 2:
+        return import_module("pymoo.algorithms.moo.nsga2").NSGA2(pop_size=size)
+    steps = 1
+    while comb(goals + steps, goals - 1) <= size:
+        steps += 1
+    directions = import_module("pymoo.util.ref_dirs").get_reference_directions("das-dennis", goals, n_partitions=steps)
+    return import_module("pymoo.algorithms.moo.nsga3").NSGA3(directions, pop_size=max(size, len(directions)))
 
 
 def knee(costs: Float[np.ndarray, "members goals"]) -> int:

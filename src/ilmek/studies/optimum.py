@@ -24,6 +24,12 @@ MEMBERS, GENERATIONS = 8, 64
 POLISH = 30
 """Largest number of steps of SLSQP."""
 
+PRECISION = 1e-9
+"""Relative change of the goal at which SLSQP ends."""
+
+ENDED = (0, 8)
+"""States in which SLSQP ends at an optimum: to its precision; to the rounding of the goal and the margins."""
+
 STEP = 1e-6
 """Step of the differences, relative to the range of a variable."""
 
@@ -41,6 +47,7 @@ class Optimum:
     point        values of the variables [SI]; None: no design holds
     goal         its goal, to be minimised
     multipliers  check number -> what relaxing its limit by 1 (relative) would lower the goal by, where SLSQP ended
+    ends         variable number -> change of the goal with the end of its range at which it is [goal / SI]
     stopped      why the search ended
     """
 
@@ -48,6 +55,7 @@ class Optimum:
     goal: float
     multipliers: dict[int, float]
     stopped: str
+    ends: dict[int, float]
 
 
 def violation(margins: Float[np.ndarray, "n checks"], made: np.ndarray) -> Float[np.ndarray, " n"]:
@@ -78,15 +86,17 @@ def optimum(variables: tuple[Variable, ...], judge: Judge, count: int, seed: int
     best = cube.best()
     stopped = "the population agrees" if found.success else f"{generations} generations are spent"
     if best is None:
-        return Optimum(None, np.nan, {}, stopped)
+        return Optimum(None, np.nan, {}, stopped, {})
     multipliers: dict[int, float] = {}
+    ends: dict[int, float] = {}
     real = np.array([variable.continuous for variable in variables])
     if real.any():
-        multipliers = _polish(cube, best, real)
+        multipliers, shares = _polish(cube, best, real)
+        ends = {n: share / (variables[n].high - variables[n].low) for n, share in shares.items()}
         stopped += ", then SLSQP"
         best = cube.best()
         assert best is not None
-    return Optimum(cube.values(best[None])[0], cube.goal_of(best), multipliers, stopped)
+    return Optimum(cube.values(best[None])[0], cube.goal_of(best), multipliers, stopped, ends)
 
 
 class _Cube:
@@ -139,8 +149,11 @@ class _Cube:
         return float(self.judged(point[None])[0][0])
 
 
-def _polish(cube: _Cube, start: np.ndarray, real: np.ndarray) -> dict[int, float]:
-    """SLSQP over the real variables from a point of which every check holds; the multipliers of its checks.
+def _polish(cube: _Cube, start: np.ndarray, real: np.ndarray) -> tuple[dict[int, float], dict[int, float]]:
+    """SLSQP over the real variables from a point of which every check holds; the multipliers of checks and ranges.
+
+    Of the ranges: number of a variable at an end of its range -> change of the goal with that end [goal / range], what
+    the gradient of the goal has beyond that of the checks.
 
     Every point that it tries is remembered, so that the best that holds is never worse than the start.
     """
@@ -170,9 +183,14 @@ def _polish(cube: _Cube, start: np.ndarray, real: np.ndarray) -> dict[int, float
         method="SLSQP",
         bounds=[(0.0, 1.0)] * int(real.sum()),
         constraints={"type": "ineq", "fun": limits, "jac": lambda x: np.nan_to_num(differences(x)[1])},
-        options={"maxiter": POLISH},
+        options={"maxiter": POLISH, "ftol": PRECISION},
     )
     values = getattr(found, "multipliers", None)
-    if values is None or not found.success:
-        return {}
-    return {int(n): float(v) * scale for n, v in zip(kept, np.ravel(values), strict=False) if v > 1e-9}
+    if values is None or found.status not in ENDED:
+        return {}, {}
+    forces = np.ravel(values)[: len(kept)]
+    slopes, around = differences(found.x)
+    rest = np.nan_to_num(slopes - around.T @ forces)
+    at_end = ((found.x <= STEP) & (rest > PRECISION)) | ((found.x >= 1 - STEP) & (rest < -PRECISION))
+    ends = {int(np.flatnonzero(real)[n]): float(rest[n]) * scale for n in np.flatnonzero(at_end)}
+    return {int(n): float(v) * scale for n, v in zip(kept, forces, strict=True) if v > 1e-9}, ends

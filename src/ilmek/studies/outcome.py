@@ -3,7 +3,7 @@
 import math
 import signal
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Protocol
 
@@ -32,8 +32,15 @@ class StudySubject(Protocol):
     def identity(self) -> Mapping[str, object]:
         """What distinguishes it from others, as plain data: its name or file, and what is fixed."""
 
+    @property
+    def together(self) -> int:
+        """How many designs are evaluated at once; 1: each alone."""
+
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """The numbers of the design with these values. Raises IlmekError where there is no such design."""
+
+    def numbers_together(self, designs: Sequence[Mapping[str, Value]], results: Sequence[str]) -> Mapping[int, Numbers]:
+        """These results, and the checks, of those of some designs, by their places, that are evaluated at once."""
 
 
 @record
@@ -106,7 +113,15 @@ def margin(check: Check) -> float:
 
 def evaluated(question: Question, designs: Sequence[Mapping[str, Value]]) -> list[Outcome]:
     """The outcomes of some designs. A design that is refused, that fails or takes too long has a reason instead."""
-    return [_evaluated(question, values) for values in designs]
+    target, found = question.target, dict[int, Numbers]()
+    if target.together > 1 and not question.time_limit:
+        needed = dict.fromkeys((*question.results, *(hold.result for hold in question.holds)))
+        with suppress(Exception):  # then each of them is evaluated alone, and its fault is its reason
+            found = dict(target.numbers_together(designs, tuple(needed)))
+    return [
+        _outcome(question, found[place]) if place in found else _evaluated(question, values)
+        for place, values in enumerate(designs)
+    ]
 
 
 def _evaluated(question: Question, values: Mapping[str, Value]) -> Outcome:
@@ -119,6 +134,10 @@ def _evaluated(question: Question, values: Mapping[str, Value]) -> Outcome:
         return Outcome(TIMEOUT, f"longer than {question.time_limit:g} s")
     except Exception as error:  # a study goes on: the design is a row, and its fault is the reason
         return Outcome(FAULT, f"{type(error).__name__}: {error}")
+    return _outcome(question, numbers)
+
+
+def _outcome(question: Question, numbers: Numbers) -> Outcome:
     results = tuple(numbers.results.get(name, math.nan) for name in question.results)
     limits = tuple(hold.check(numbers.results.get(hold.result, math.nan)) for hold in question.holds)
     checks = (*numbers.checks, *limits)

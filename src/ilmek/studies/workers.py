@@ -33,6 +33,7 @@ class Workers:
 
     def __init__(self, question: Question, count: int = 1, cluster: str | None = None) -> None:
         self._question, self._count, self._cluster = question, count, cluster
+        self._together = question.target.together
         self._stack = ExitStack()
         self._executor: Executor | None = None
 
@@ -55,12 +56,14 @@ class Workers:
 
     def outcomes(self, designs: Sequence[Design]) -> Iterator[Outcome]:
         """The outcome of each design, in order."""
-        if self._executor is None:
-            for design in designs:
-                yield from evaluated(self._question, [design])
-            return
-        size = max(1, min(CHUNK, len(designs) // (2 * max(self._count, 1))))
+        size = self._together  # of arrays the same at any number of workers: their last bits may depend on it
+        if self._executor is not None and size == 1:
+            size = max(1, min(CHUNK, len(designs) // (2 * max(self._count, 1))))
         chunks = [designs[first : first + size] for first in range(0, len(designs), size)]
+        if self._executor is None:
+            for chunk in chunks:
+                yield from evaluated(self._question, chunk)
+            return
         while chunks:
             futures = [self._executor.submit(evaluated, self._question, chunk) for chunk in chunks]
             for number, future in enumerate(futures):

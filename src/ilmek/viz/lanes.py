@@ -14,7 +14,7 @@ from ilmek.viz.sheet import Sheet
 from ilmek.viz.style import AXIS, STRONG, TEXT, colour, in_unit, tint, with_unit
 
 WIDTH = 600.0
-_RIGHT, _BOTTOM, _BAR, _GAP, _ROW, _KEY = 16.0, 30.0, 15.0, 8.0, 13.0, 10.0
+_RIGHT, _BOTTOM, _BAR, _GAP, ROW, _KEY = 16.0, 30.0, 15.0, 8.0, 13.0, 10.0
 """Right margin, room for the axis, height of a bar, gap of two, height of a row of the legend, side of a key [pt]."""
 
 _PALE = 0.35
@@ -84,10 +84,10 @@ class _Frame:
             shades = [colour(number) for number in range(len(kinds))]
         self._colours = dict(enumerate(shades))
         left = 18.0 + max([40.0, *(text_width(name, STRONG, bold=True) for name in names)])
-        keys = _keys([(kind, kinds[kind]) for kind in used], left)
-        rows = 1 + max((row for _, row, _ in keys), default=-1)
+        self._keys = keys([(kind, kinds[kind]) for kind in used], left)
+        rows = 1 + max((row for _, row, _ in self._keys), default=-1)
         height = len(names) * (_BAR + _GAP) + _GAP
-        self.sheet = Sheet(WIDTH, _BOTTOM + height + _ROW * rows + 6.0)
+        self.sheet = Sheet(WIDTH, _BOTTOM + height + ROW * rows + 6.0)
         self._box = Box(left, _BOTTOM, WIDTH - left - _RIGHT, height)
         self._factor, self._most = parse_unit(axis.unit).factor, most
         paper(self.sheet, self._box)
@@ -99,7 +99,7 @@ class _Frame:
             middle = complex(left - 8.0, self._low(index) + _BAR / 2)
             self.sheet.text(middle, name, fontsize=STRONG, bold=True, ha="right", va="center_baseline")
         self.sheet.line(left + 1j * np.array([self._box.low, self._box.top]), color=AXIS, linewidth=0.7)
-        self._keys, self._kinds = keys, kinds
+        self._kinds = kinds
 
     def make_pale(self, kinds: int) -> None:
         """Draw the first kinds pale."""
@@ -108,9 +108,8 @@ class _Frame:
     def legend(self) -> None:
         """Draw the legend."""
         for kind, row, across in self._keys:
-            self._key(
-                self._kinds[kind], self._colours[kind], complex(across, self.sheet.height - 4.0 - _ROW * (row + 0.5))
-            )
+            at = complex(across, self.sheet.height - 4.0 - ROW * (row + 0.5))
+            draw_key(self.sheet, self._kinds[kind], self._colours[kind], at)
 
     def x(self, values: FloatArray) -> FloatArray:
         """Abscissae on the sheet [pt] of SI values."""
@@ -125,19 +124,21 @@ class _Frame:
     def _low(self, index: int) -> float:
         return self._box.top - (index + 1) * (_BAR + _GAP)
 
-    def _key(self, name: str, shade: str, at: complex) -> None:
-        corners = at + _KEY * np.array([0, 1, 1, 0]) + 1j * _KEY * np.array([-0.5, -0.5, 0.5, 0.5])
-        self.sheet.area(corners, facecolor=shade)
-        self.sheet.text(at + _KEY + 4.0, name, fontsize=TEXT, va="center_baseline")
+
+def draw_key(sheet: Sheet, name: str, shade: str, at: complex) -> None:
+    """An entry of a legend: a square of a colour, and a name; at: middle of the square's left side [pt]."""
+    corners = at + _KEY * np.array([0, 1, 1, 0]) + 1j * _KEY * np.array([-0.5, -0.5, 0.5, 0.5])
+    sheet.area(corners, facecolor=shade)
+    sheet.text(at + _KEY + 4.0, name, fontsize=TEXT, va="center_baseline")
 
 
-def _keys(kinds: Sequence[tuple[int, str]], left: float) -> list[tuple[int, int, float]]:
+def keys(kinds: Sequence[tuple[int, str]], left: float) -> list[tuple[int, int, float]]:
     """Kind, row from the top and left edge [pt] of each entry of the legend."""
-    keys, row, at = [], 0, left
+    placed, row, at = [], 0, left
     for kind, name in kinds:
         width = _KEY + 4.0 + text_width(name, TEXT) + 14.0
         if at > left and at + width > WIDTH:
             row, at = row + 1, left
-        keys.append((kind, row, at))
+        placed.append((kind, row, at))
         at += width
-    return keys
+    return placed

@@ -17,6 +17,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.errors import UnitError
 from ilmek.report import (
     Animation,
+    DesignCloud,
     Drawing,
     Figure,
     Gantt,
@@ -61,7 +62,7 @@ def looked(figures: Iterable[Figure]) -> tuple[Figure, ...]:
 
 
 def _has_looks(figure: Figure) -> bool:
-    if isinstance(figure, Gantt | StackedBars):
+    if isinstance(figure, Gantt | StackedBars | DesignCloud):
         return bool(figure.looks)
     items: tuple[Series | Stroke | MovingStroke | Lane, ...]
     match figure:
@@ -91,7 +92,7 @@ def _looked(figure: Figure, looks: Mapping[str, int]) -> Figure:
             numbers = _coloured((*still.strokes, *figure.strokes), looks)
             still = replace(still, strokes=_with_looks(still.strokes, numbers[:count]))
             return replace(figure, still=still, strokes=_with_looks(figure.strokes, numbers[count:]))
-        case Gantt() | StackedBars():
+        case Gantt() | StackedBars() | DesignCloud():
             return replace(figure, looks=tuple(numbered(figure.kinds, looks)))
 
 
@@ -184,7 +185,7 @@ def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
         yield from ((one.label, one.dashed) for one in figure.series)
     elif isinstance(figure, Timing):
         yield from ((lane.name, False) for lane in figure.lanes)
-    elif isinstance(figure, Gantt | StackedBars):
+    elif isinstance(figure, Gantt | StackedBars | DesignCloud):
         yield from ((name, False) for name in figure.kinds)
     else:
         still = figure.still if isinstance(figure, Animation) else figure

@@ -15,6 +15,7 @@ from ilmek.records import alike
 from ilmek.report import (
     Animation,
     Axis,
+    DesignCloud,
     Drawing,
     Figure,
     Gantt,
@@ -45,6 +46,7 @@ KINDS = {
     Timing: "timing",
     Gantt: "gantt",
     StackedBars: "bars",
+    DesignCloud: "cloud",
 }
 """Kinds of figures by their classes."""
 
@@ -102,6 +104,7 @@ class ShownFigure:
     timing: Timing | None = None
     gantt: Gantt | None = None
     bars: StackedBars | None = None
+    cloud: DesignCloud | None = None
 
 
 def shown_figures(figures: Iterable[Figure]) -> list[ShownFigure]:
@@ -122,7 +125,7 @@ def _shown(figure: Figure) -> Any:
         case Gantt():
             lanes = (replace(lane, starts=rounded(lane.starts), ends=rounded(lane.ends)) for lane in figure.lanes)
             return replace(figure, lanes=tuple(lanes))
-        case StackedBars():
+        case StackedBars() | DesignCloud():
             return replace(figure, values=tuple(map(rounded, figure.values)))
 
 

@@ -7,7 +7,7 @@ import msgspec
 from markupsafe import Markup
 
 from ilmek.records import json_value
-from ilmek.report import Animation, Check, Figure, Gantt, Plot, Report, StackedBars, Timing
+from ilmek.report import Animation, Check, DesignCloud, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.embedded import compressed
 from ilmek.viz.looks import looked
@@ -42,7 +42,7 @@ class Drawn:
     @property
     def wide(self) -> bool:
         """Whether it takes the whole width."""
-        return isinstance(self.figure, Timing | Gantt | StackedBars)
+        return isinstance(self.figure, Timing | Gantt | StackedBars | DesignCloud)
 
 
 @dataclass(frozen=True, slots=True)

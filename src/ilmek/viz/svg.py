@@ -1,11 +1,12 @@
 """Figures of a report as inline SVG.
 
 `style` has the colours and fonts, `looks` the colour and marker of each label, `sheet` writes SVG; `plot`, `drawing`,
-`animation`, `timing` and `lanes` are the kinds of figure.
+`animation`, `timing`, `lanes` and `cloud` are the kinds of figure.
 """
 
-from ilmek.report import Animation, Drawing, Figure, Gantt, Plot, StackedBars
+from ilmek.report import Animation, DesignCloud, Drawing, Figure, Gantt, Plot, StackedBars
 from ilmek.viz.animation import draw_animation
+from ilmek.viz.cloud import draw_cloud
 from ilmek.viz.drawing import draw_drawing
 from ilmek.viz.lanes import draw_gantt, draw_stacked
 from ilmek.viz.looks import looked
@@ -27,6 +28,8 @@ def svg(figure: Figure) -> str:
         sheet = draw_gantt(figure)
     elif isinstance(figure, StackedBars):
         sheet = draw_stacked(figure)
+    elif isinstance(figure, DesignCloud):
+        sheet = draw_cloud(figure)
     else:
         sheet = draw_timing(figure)
     return sheet.svg(figure.title, FONTS)

@@ -646,6 +646,27 @@ export interface DeadCentreAnswer {
   bodies: string[];
 }
 /**
+ * Designs of a study: each a line over all columns, and a point in each pair of them.
+ *
+ *     columns   variables, then results        values    [SI] of each column by design
+ *     kinds     what designs are, as on the front, or failing a check; that of each design is a number of `kind`
+ *     commands  that make each design
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "DesignCloud".
+ */
+export interface DesignCloud {
+  name: string;
+  title: string;
+  columns: Axis[];
+  values: (number | null)[][];
+  kinds: string[];
+  kind: (number | null)[];
+  commands: string[];
+  note: string;
+  looks: number[];
+}
+/**
  * A design of a machine: settings by name, texts with units or numbers in SI.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -1298,6 +1319,7 @@ export interface ShownFigure {
   timing: Timing | null;
   gantt: Gantt | null;
   bars: StackedBars | null;
+  cloud: DesignCloud | null;
 }
 /**
  * Curves over one axis; plots, animations and cyclograms over a quantity of the same label share a cursor.

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { greatestOf, isAngle, keyed, keyStep, quiet, valueAt, within } from "./cursor";
+import { keptOf } from "./designs";
 import { anchorsOf } from "./drawing";
 import type { ShownAnimation } from "./figures";
 import { dashesOf, markerOf } from "./looks";
@@ -29,6 +30,25 @@ describe("ticks", () => {
   it("room reaches a tick where it is near", () => {
     expect(roomy({ low: 0, high: 9.7 }, "mm", 5)).toEqual({ low: 0, high: 10 });
     expect(roomy({ low: 0.4, high: 8.1 }, "mm", 5).high).toBeCloseTo(8.408, 9);
+  });
+});
+
+describe("designs of a study", () => {
+  const axis = { label: "a", unit: "mm" };
+  const cloud = {
+    columns: [axis, axis],
+    values: [
+      [1, 2, 3],
+      [4, null, 6],
+    ],
+    kinds: ["front", "holds"],
+    looks: [0, 1],
+  };
+  const all = { ...cloud, kind: [0, 1, 1], commands: ["", "", ""], name: "", title: "", note: "" };
+  it("are left out by a range, by a value that they lack, and by their kind", () => {
+    expect(keptOf(all, new Map(), new Set())).toEqual([0, 1, 2]);
+    expect(keptOf(all, new Map([[0, { low: 1, high: 2 }]]), new Set())).toEqual([0, 1]);
+    expect(keptOf(all, new Map([[1, { low: 0, high: 9 }]]), new Set([0]))).toEqual([2]);
   });
 });
 

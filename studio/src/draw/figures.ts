@@ -2,6 +2,7 @@
 import type { Drawing, Plot, ShownFigure } from "../api/messages";
 
 export type {
+  DesignCloud as ShownCloud,
   Gantt as ShownGantt,
   Lane as ShownLane,
   Mark,
@@ -16,8 +17,8 @@ export type {
 export type Numbers = (number | null)[];
 
 /** Name, title and note of a figure. */
-export function aboutOf({ plot, drawing, animation, timing, gantt, bars }: ShownFigure) {
-  return plot ?? drawing ?? animation?.still ?? timing ?? gantt ?? bars ?? { name: "", title: "", note: "" };
+export function aboutOf({ plot, drawing, animation, timing, gantt, bars, cloud }: ShownFigure) {
+  return plot ?? drawing ?? animation?.still ?? timing ?? gantt ?? bars ?? cloud ?? { name: "", title: "", note: "" };
 }
 
 /** What is drawn of a plot, and of a drawing. */

@@ -2,6 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useMemo } from "preact/hooks";
 import { Table } from "../ui";
 import { CursorContext, type Cursors } from "./cursor";
+import { Designs } from "./designs";
 import { Drawing } from "./drawing";
 import { aboutOf, type ShownFigure, type ShownTable } from "./figures";
 import { Player } from "./player";
@@ -16,7 +17,7 @@ export function Figure({
   autoplay = false,
 }: Omit<BodyProps, "height" | "autoplay"> & { autoplay?: boolean }) {
   const { title, note } = aboutOf(figure);
-  const wide = figure.timing || figure.gantt || figure.bars;
+  const wide = figure.timing || figure.gantt || figure.bars || figure.cloud;
   return (
     <figure class={`figure${wide ? " wide" : ""}`}>
       <figcaption>{title}</figcaption>
@@ -37,13 +38,14 @@ interface BodyProps {
 
 /** A figure without title and note. */
 export function FigureBody({ figure, ghost, autoplay, height }: BodyProps) {
-  const { plot, drawing, animation, timing, gantt, bars } = figure;
+  const { plot, drawing, animation, timing, gantt, bars, cloud } = figure;
   const { title } = aboutOf(figure);
   if (plot) return <Plot plot={plot} title={title} height={height} />;
   if (drawing) return <Drawing drawing={drawing} title={title} height={height} />;
   if (animation) return <Player animation={animation} ghost={ghost?.animation} {...{ title, autoplay, height }} />;
   if (timing) return <Timing timing={timing} title={title} />;
   if (gantt) return <Gantt gantt={gantt} title={title} />;
+  if (cloud) return <Designs cloud={cloud} title={title} />;
   return bars ? <StackedBars bars={bars} title={title} /> : null;
 }
 

@@ -87,10 +87,7 @@ class Analysis:
         """Whether it closes over all of its range, where that is required."""
         if not self.run.required or self.run.running is None:
             return ()
-        cure = "change a link's length, or the range: --over FROM..TO"
-        return (
-            at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive").with_cure(cure),
-        )
+        return (closes_check(self.run.closed_share),)
 
     @property
     def _defined(self) -> tuple[Check, ...]:
@@ -101,9 +98,7 @@ class Analysis:
         listed = ", ".join(self.run.shown(value) for value in values[:SHOWN])
         more = f" and {len(values) - SHOWN} further" if len(values) > SHOWN else ""
         where = f"; not at {self.run.running.name} = {listed}{more}" if values else ""
-        source = f"velocities and forces exist where the drive determines the motion{where}"
-        cure = "change a link's length, drive another body, or keep away from it: --over FROM..TO"
-        return (at_most("dead centres in its range", len(values), 0, "1", source).with_cure(cure),)
+        return (dead_centres_check(len(values), where),)
 
     @property
     def _driven(self) -> tuple[Check, ...]:
@@ -164,6 +159,19 @@ class Analysis:
             yield f"no speed is given: forces at {run.speed:g} {'rad/s' if run.unit == 'deg' else 'm/s'}; give --speed"
         if run.machine.frictions and run.forces is not None and not run.forces.forces.frictions:
             yield "the friction of joints is left out: the inputs stand still; give --speed"
+
+
+def closes_check(share: float) -> Check:
+    """Whether a mechanism closes over a share of its range that is all of it."""
+    cure = "change a link's length, or the range: --over FROM..TO"
+    return at_least("closes over its range", share, 1.0, "%", "range of the drive").with_cure(cure)
+
+
+def dead_centres_check(number: int, where: str = "") -> Check:
+    """Whether a range has no dead centre in it; where: its dead centres in words."""
+    source = f"velocities and forces exist where the drive determines the motion{where}"
+    cure = "change a link's length, drive another body, or keep away from it: --over FROM..TO"
+    return at_most("dead centres in its range", number, 0, "1", source).with_cure(cure)
 
 
 def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:

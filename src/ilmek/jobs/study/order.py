@@ -34,6 +34,7 @@ class StudyOrder:
     """What is studied, as texts.
 
     target   machine, machine file or mechanism file       fixed   settings that do not vary
+    designs  table of the designs, in place of ranges; "": none
     vary     name -> range, values or tolerance            goals   results, `most` before one that is to be large
     holds    limits of results                             record  further results that the file has
     correlate  pairs of variables, "a, b = 0.8"            yield_target  yield for which tolerances are found; 0: none
@@ -56,6 +57,7 @@ class StudyOrder:
     correlate: tuple[str, ...] = ()
     yield_target: float = 0.0
     costs: Mapping[str, float] = field(default_factory=dict)
+    designs: str = ""
 
 
 @record
@@ -89,10 +91,15 @@ def read_variable(target: StudyTarget, name: str, text: str) -> Variable:
         for value in (low, high):
             parameter.check(value)
         if middle is None:
-            given = isinstance(nominal, int | float) and not isinstance(nominal, bool) and low <= nominal <= high
-            middle = float(nominal) if given else (low + high) / 2  # type: ignore[arg-type]
+            middle = nominal_in(nominal, low, high)
         whole = parameter.kind is int
         return Variable(name, parameter.unit, low, high, middle, whole=whole, spread=kind or usual)
+
+
+def nominal_in(nominal: Value, low: float, high: float) -> float:
+    """A nominal value, or the middle of a range that it is not in."""
+    usable = isinstance(nominal, int | float) and not isinstance(nominal, bool) and low <= nominal <= high
+    return float(nominal) if usable else (low + high) / 2  # type: ignore[arg-type]
 
 
 def _limits(parameter: Parameter, text: str) -> tuple[float, float, float | None, str]:
@@ -201,7 +208,7 @@ def read_hold(text: str, units: Mapping[str, str]) -> Hold:
 KEYS = {
     "target": str, "set": dict, "vary": dict, "goals": list, "hold": list, "record": list, "method": str,
     "sampling": str, "samples": int, "seed": int, "over": str, "speed": str,
-    "correlate": list, "yield": str, "cost": dict,
+    "correlate": list, "yield": str, "cost": dict, "designs": str,
 }  # fmt: skip
 """Keys of a study file, and the kinds of their values."""
 
@@ -227,6 +234,8 @@ def study_file(path: Path) -> JsonObject | None:
                 f"{at}: {key} is {value!r}",
                 allowed={dict: "a table", list: "a list", str: "a text", int: "a whole number"}[kind],
             )
+    if "designs" in data:
+        data = {**data, "designs": str(path.parent / data["designs"])}
     beside = path.parent / data["target"]
     return {**data, "target": str(beside)} if beside.suffix in (".toml", ".json") else data
 
@@ -236,8 +245,7 @@ def check_words(order: StudyOrder) -> None:
     for option, word, known in (("--method", order.method, METHODS), ("--sampling", order.sampling, SAMPLINGS)):
         if word not in known:
             raise ParameterError(f"{option} {word}", allowed=", ".join(known), do=did_you_mean(word, known))
-    if not order.vary:
-        raise ParameterError("nothing varies", do="give --vary NAME=FROM..TO")
+    _check_source(order)
     if order.method in ("local", "morris", "sobol", "tolerance") and not (order.goals or order.record or order.holds):
         raise ParameterError(f"--method {order.method} without a result", do="name one with --goal or --record")
     if order.method != "tolerance" and (order.correlate or order.yield_target or order.costs):
@@ -252,6 +260,14 @@ def check_words(order: StudyOrder) -> None:
             raise ParameterError(f"--cost {name}={cost:g}", allowed="a variable, and a cost above 0", do=near)
     if order.method == "optimum" and not order.goals:
         raise ParameterError("an optimum without a goal", do="give --goal RESULT")
+
+
+def _check_source(order: StudyOrder) -> None:
+    """Raise ParameterError unless there are ranges, or a table of designs without words for ranges."""
+    if not order.vary and not order.designs:
+        raise ParameterError("nothing varies", do="give --vary NAME=FROM..TO, or --designs FILE.csv")
+    if order.designs and (order.vary or order.samples or order.method != "sweep"):
+        raise ParameterError("--designs with --vary, --samples or another --method", allowed="a sweep over its rows")
 
 
 def names_of(texts: Sequence[str], units: Mapping[str, str]) -> tuple[str, ...]:

@@ -7,18 +7,22 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.jobs.study.run import StudyResult
 from ilmek.records import JsonObject
-from ilmek.report import Axis, Check, Column, Figure, Mark, Plot, Report, Result, Series, Table, at_least
+from ilmek.report import Axis, Check, Column, DesignCloud, Figure, Mark, Plot, Report, Result, Series, Table, at_least
 from ilmek.studies.allocation import Allocation, scaled
 from ilmek.studies.fronts import knee
+from ilmek.studies.optimum import Optimum
 from ilmek.studies.tolerance import Yield
 from ilmek.studies.variable import settings_of
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, parse_unit
 
 CLASSES = 12
 """Classes of a variable in a curve of means."""
 
 LEAST_IN_CLASS = 3
 """Designs of a class from which its mean is drawn."""
+
+MOST_POINTS = 1000
+"""Designs of the picture of all designs; those of the front are added."""
 
 SHOWN = 10
 """Designs, checks and reasons in a table."""
@@ -136,11 +140,22 @@ def _best_tables(found: StudyResult) -> Iterator[Table]:
     rows = tuple(_design_row(found, one) for one in _thinned(found.front))
     yield Table("study-best", title, heads, rows, brief=True)
     yield Table("study-command", "As a command", (Column("command"),), ((found.command(number),),), brief=True)
-    if found.optimum is not None and found.optimum.multipliers:
-        goal = found.goals[0]
-        head = Column(f"change of {goal.result} where its limit is relaxed by 1 %", found.units[goal.result])
-        costs = tuple((found.checks[n], -0.01 * m * goal.sign) for n, m in found.optimum.multipliers.items())
-        yield Table("study-multipliers", "What binding limits cost", (Column("check"), head), costs, brief=True)
+    if found.optimum is not None and (found.optimum.multipliers or found.optimum.ends):
+        yield _multiplier_table(found, found.optimum)
+
+
+def _multiplier_table(found: StudyResult, optimum: Optimum) -> Table:
+    """What each binding limit costs: that of a check relaxed by 1 %, a range widened by a unit in which it is shown."""
+    goal = found.goals[0]
+    rows = [(found.checks[n], "1 %", -0.01 * m * goal.sign) for n, m in optimum.multipliers.items()]
+    for number, slope in optimum.ends.items():
+        one = found.variables[number]
+        relation, limit = ("<=", one.high) if slope < 0 else (">=", one.low)
+        name = f"{one.name} {relation} {format_quantity(limit, one.unit)}"
+        change = -abs(slope) * parse_unit(one.unit).factor * goal.sign
+        rows.append((name, format_quantity(parse_unit(one.unit).factor, one.unit), change))
+    heads = (Column("limit"), Column("relaxed by"), Column(f"change of {goal.result}", found.units[goal.result]))
+    return Table("study-multipliers", "What binding limits cost", heads, tuple(rows), brief=True)
 
 
 def _design_row(found: StudyResult, number: int) -> tuple[float | int | str, ...]:
@@ -200,6 +215,8 @@ def _thinned(numbers: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _figures(found: StudyResult) -> Iterator[Figure]:
+    if found.rows.made.sum() > 1 and len(found.variables) + len(found.results) > 1:
+        yield _cloud(found)
     if len(found.goals) == 2 and found.front:
         yield _front_plot(found)
     for result in found.results:
@@ -210,6 +227,27 @@ def _figures(found: StudyResult) -> Iterator[Figure]:
     for number, variable in enumerate(found.variables):
         if variable.continuous:
             yield from _failure_plot(found, number)
+
+
+def _cloud(found: StudyResult) -> DesignCloud:
+    """All designs that were made, each by what it is: on the front, held, or the check that it fails by most."""
+    rows, failures = found.rows, [name for name, _ in _failures(found)]
+    shown = np.flatnonzero(rows.made)
+    shown = np.union1d(shown[:: max(1, -(-len(shown) // MOST_POINTS))], np.array(found.front, dtype=int)).astype(int)
+    words = [f"fails {name}" for name in failures]
+    named = ("best" if len(found.goals) == 1 else "front", *words[:1], "holds", *words[1:])
+    kind = np.full(len(shown), named.index("holds"))
+    failing = ~rows.feasible[shown]
+    if failures and failing.any():
+        margins = found.margins[shown[failing]][:, [found.checks.index(name) for name in failures]]
+        numbers = np.array([named.index(word) for word in words])
+        kind[failing] = numbers[np.argmin(np.nan_to_num(margins, nan=np.inf), axis=1)]
+    kind[np.isin(shown, found.front)] = 0
+    variables = [Axis(v.name, v.unit if v.continuous else "") for v in found.variables]
+    columns = (*variables, *(Axis(name, found.units[name]) for name in found.results))
+    values = tuple(np.column_stack([rows.points[shown], rows.results[shown]]).T)
+    commands = tuple(found.command(number) for number in shown.tolist())
+    return DesignCloud("study-designs", "Designs", columns, values, named, kind, commands)
 
 
 def _front_plot(found: StudyResult) -> Plot:

@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.study.given_designs import read_designs
 from ilmek.jobs.study.order import (
     SAMPLES,
     Goal,
@@ -110,12 +111,13 @@ def study(
     OutputError; Cancelled, after which the file has all designs until then.
     """
     check_words(order)
-    for name in order.vary.keys() & order.fixed.keys():
-        raise ParameterError(f"{name} varies and is set", do="leave out one of --vary and --set")
     if not 1 <= workers <= MOST_WORKERS:
         raise ParameterError(f"--workers {workers}", allowed=f"1 to {MOST_WORKERS}")
     target = read_target(order.target, order.fixed, MotionRequest({}, order.over, order.speed))
-    variables = tuple(read_variable(target, name, text) for name, text in order.vary.items())
+    given = read_designs(target, Path(order.designs)) if order.designs else None
+    variables = given[0] if given else tuple(read_variable(target, name, text) for name, text in order.vary.items())
+    for name in {variable.name for variable in variables} & order.fixed.keys():
+        raise ParameterError(f"{name} varies and is set", do="leave out one of --vary and --set")
     units = _first(target, variables).units
     goals = tuple(read_goal(text, units) for text in order.goals)
     holds = tuple(read_hold(text, units) for text in order.holds)
@@ -131,8 +133,10 @@ def study(
             path.unlink(missing_ok=True)
         kept = stack.enter_context(StudyFile(path, plan, [v.name for v in variables], results))
         running = stack.enter_context(Workers(Question(target, results, holds, order.time_limit), workers, cluster))
-        recorder = DesignRecorder(kept, variables, running, samples, progress)
-        found = _METHODS[order.method](recorder, order, samples, goals, results)
+        recorder = DesignRecorder(kept, variables, running, len(given[1]) if given else samples, progress)
+        found = (
+            _swept(recorder, given[1]) if given else _METHODS[order.method](recorder, order, samples, goals, results)
+        )
         rows, margins = kept.designs(), kept.margins()
         best = _front(rows, goals, results)
         return StudyResult(
@@ -199,7 +203,10 @@ def _front(rows: StudyRows, goals: tuple[Goal, ...], results: tuple[str, ...]) -
 
 
 def _sweep(recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object) -> JsonObject:
-    points = sampled(recorder.variables, order.sampling, samples, order.seed)
+    return _swept(recorder, sampled(recorder.variables, order.sampling, samples, order.seed))
+
+
+def _swept(recorder: DesignRecorder, points: FloatArray) -> JsonObject:
     for start in range(0, len(points), BLOCK):
         recorder(points[start : start + BLOCK])
     return {}

@@ -1,19 +1,20 @@
 """What a study evaluates: a machine of the catalogue by its parameters, or a mechanism file by its `values`."""
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from ilmek.errors import MechanismError, ParameterError, did_you_mean
+from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean
 from ilmek.io.data_text import read_data
 from ilmek.io.mechanism_file import (
     MechanismFile,
     mechanism_of_data,
-    mechanism_of_values,
     read_mechanism,
     value_of,
+    values_reader,
     with_values,
 )
 from ilmek.jobs.machine_file import read_machine_order
@@ -21,6 +22,7 @@ from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.report import report as mechanism_report
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import run
+from ilmek.jobs.study.mechanism_arrays import arrays_serve, numbers_by_arrays
 from ilmek.linkage.model import Pin
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, reachable
@@ -34,6 +36,8 @@ LONGEST_LIST = 24
 EXTREMES = {"_min": min, "_max": max}
 """Ends of names of results with an entry for each part: of the whole the least or greatest is meant."""
 
+TOGETHER, FEW = 64, 32
+"""Designs of a mechanism file evaluated at once; fewer than `FEW` are quicker alone: the compiler is not loaded."""
 
 PLAYS = {
     "clearance": ("mm", "radial play of a pin in its hole"),
@@ -73,6 +77,12 @@ class MachineTarget:
         design = machine.designed(params)
         return numbers_of(machine.report(design, illustrated=False, drawn=False, assembled=False, listed=False))
 
+    together = 1
+
+    def numbers_together(self, _designs: object, _results: object) -> dict[int, Numbers]:
+        """None: each design is made alone."""
+        return {}
+
 
 @record
 class MechanismTarget:
@@ -111,10 +121,29 @@ class MechanismTarget:
 
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """The results and checks of the mechanism in motion. Raises any IlmekError."""
-        own = {name: value for name, value in values.items() if name.partition(".")[0] not in PLAYS}
-        file = with_play(mechanism_of_values(self.data, own), values)
-        found = analysis(run(file, self.request))
+        found = analysis(run(self._reader(values)(values), self.request))
         return numbers_of(mechanism_report(found, drawn=False))
+
+    def _reader(self, names: Iterable[str]) -> Callable[[Mapping[str, Value]], MechanismFile]:
+        """Reads designs of which these vary."""
+        own = [name for name in names if name.partition(".")[0] not in PLAYS]
+        read = values_reader(self.data, own)
+        return lambda values: with_play(read({name: values[name] for name in own}), values)
+
+    @property
+    def together(self) -> int:
+        """Designs that are evaluated at once: `TOGETHER` where arrays serve them."""
+        return TOGETHER if arrays_serve(mechanism_of_data(self.data).machine, self.request) else 1
+
+    def numbers_together(self, designs: Sequence[Mapping[str, Value]], results: Sequence[str]) -> dict[int, Numbers]:
+        """The numbers of those designs, by their places, that are evaluated as arrays."""
+        if len(designs) < FEW:
+            return {}
+        machines, read = {}, self._reader(designs[0])
+        for place, values in enumerate(designs):
+            with suppress(IlmekError):  # alone it is refused with the reason
+                machines[place] = read(values).machine
+        return numbers_by_arrays(mechanism_of_data(self.data).machine, machines, self.request, results)
 
 
 def with_play(file: MechanismFile, values: Mapping[str, Value]) -> MechanismFile:

@@ -23,4 +23,8 @@ export default {
   velocity: "Velocity",
   acceleration: "Acceleration",
   curves: "Curves",
+  designHelp: "Drag along an axis to keep the designs inside; press a line or a point for its command.",
+  designKeys: "Left and right arrow: the next design; Escape: all ranges.",
+  designsKept: "{kept} of {all} designs",
+  over: "{y} over {x}",
 } as const;

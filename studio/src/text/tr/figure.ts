@@ -25,4 +25,8 @@ export default {
   velocity: "Hız",
   acceleration: "İvme",
   curves: "Eğriler",
+  designHelp: "Aralıktaki tasarımları tutmak için eksen boyunca sürükleyin; komutu için çizgiye veya noktaya basın.",
+  designKeys: "Sol ve sağ ok: sonraki tasarım; Escape: bütün aralıklar.",
+  designsKept: "{all} tasarımdan {kept} tanesi",
+  over: "{y}, {x} üzerinde",
 } satisfies Same<typeof en>;

@@ -5,7 +5,7 @@ import { firstFigures, overlaid } from "./overlay";
 function plot(name: string, label: string, y: number[], unit = "N"): ShownFigure {
   const series = [{ label, look: 0, dashed: false, x: [0, 1], y }];
   const axes = { x: { label: "crank angle", unit: "deg" }, y: { label: "force", unit: unit } };
-  const other = { drawing: null, animation: null, timing: null, gantt: null, bars: null };
+  const other = { drawing: null, animation: null, timing: null, gantt: null, bars: null, cloud: null };
   return { plot: { name, title: name, note: "", ...axes, series, marks: [] }, ...other };
 }
 

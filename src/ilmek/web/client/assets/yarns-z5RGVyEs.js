@@ -1,0 +1,1 @@
+export{t as Yarns}from"./yarns-DHp2KJ92.js";
