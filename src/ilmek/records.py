@@ -28,6 +28,8 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache
 from typing import Any, Generic, TypeAlias, TypedDict, TypeVar, Unpack, dataclass_transform, overload
 
+from ilmek.sentences import Sentence, translated
+
 T = TypeVar("T")
 
 JsonObject: TypeAlias = dict[str, Any]
@@ -242,3 +244,21 @@ def alike(kind: Callable[..., T], source: object, /, **more: object) -> T:
     """A record of a class, with what a source has under the names of its fields, but for the fields that are given."""
     names = (field.name for field in fields(kind) if field.name not in more and hasattr(source, field.name))  # type: ignore[arg-type]
     return kind(**{name: getattr(source, name) for name in names}, **more)
+
+
+def json_value(value: Any) -> object:
+    """What an encoder of JSON is told of a value that it does not know.
+
+    A sentence is its text in the language that is spoken, an array its list, a complex number x and y; an array of them
+    x, y, x, y, … Raises TypeError for anything else.
+
+    >>> json_value(1 + 2j), json_value(Sentence("sheet.mass"))
+    ((1.0, 2.0), 'Mass')
+    """
+    if isinstance(value, Sentence):
+        return translated(value)
+    if isinstance(value, complex):
+        return value.real, value.imag
+    if hasattr(value, "tolist"):  # an array or a number of numpy, which is not imported for a record
+        return (value.copy().view(value.real.dtype) if value.dtype.kind == "c" and value.ndim else value).tolist()
+    raise TypeError(f"{type(value).__name__} in JSON")

@@ -20,7 +20,7 @@ from ilmek.jobs import animation as job
 from ilmek.progress import Cancelled, Progress
 from ilmek.report import Animation, Report
 from ilmek.viz import animation_frames
-from ilmek.viz.looks import looks_of
+from ilmek.viz.looks import looked
 
 ROOT = Path(__file__).parents[2]
 FEW = 12
@@ -45,8 +45,8 @@ def four_bar() -> Report:
 
 
 def pictures(report: Report) -> list[Image.Image]:
-    (animation,) = (one for one in report.figures if isinstance(one, Animation))
-    return list(animation_frames.pictures(animation, looks_of(report.figures)))
+    (animation,) = (one for one in looked(report.figures) if isinstance(one, Animation))
+    return list(animation_frames.pictures(animation))
 
 
 def test_a_run_takes_five_seconds() -> None:

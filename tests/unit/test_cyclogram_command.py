@@ -17,7 +17,7 @@ from ilmek.jobs.cyclogram import columns
 from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
-from ilmek.viz.plain.figures import shown_figure
+from ilmek.viz.plain import shown_figures
 from ilmek.viz.svg import svg
 
 PRESS = str(Path(__file__).parents[2] / "examples" / "press.toml")
@@ -114,8 +114,9 @@ def test_the_drawing_carries_laws_windows_arrows_and_what_the_client_draws() -> 
     text = svg(figure(solved()))
     for words in ("modified-sine (0.2)", "in the tool", "pressed", "3-4-5"):
         assert words in text
-    timing = shown_figure(figure(solved()), {}).timing
-    assert [lane.shown_unit for lane in timing.lanes] == ["mm"] * 3
+    timing = shown_figures((figure(solved()),))[0].timing
+    assert timing is not None
+    assert [lane.unit for lane in timing.lanes] == ["mm"] * 3
     cyclogram = solved().cyclogram
     feed, down = cyclogram.tracks[0].segments[0], cyclogram.track("die").segment("down")
     lane, law = timing.lanes[0], LAWS["cycloidal"]

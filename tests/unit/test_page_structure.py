@@ -12,7 +12,7 @@ from default_machines import default_page, default_report, page_data
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Animation, Axis, Drawing, Plot, Report, Series, at_most, rounded
 from ilmek.units import deg, parse_unit
-from ilmek.viz.looks import dashes, looks_of, marker, numbered, subject
+from ilmek.viz.looks import dashes, looked, marker, subject
 from ilmek.viz.number_format import number
 from ilmek.viz.page import FIRST_CHECKS, TESTS, machine_page
 from ilmek.viz.style import colour
@@ -37,9 +37,8 @@ def made(request: pytest.FixtureRequest) -> Made:
 
 def colours(report: Report) -> Iterator[tuple[str, str]]:
     """Subject and colour of each curve of the plots and each bar of the mechanisms, as drawn."""
-    looks = looks_of(report.figures)
-    for figure in report.figures:
-        root = ET.fromstring(svg(figure, looks))
+    for figure in looked(report.figures):
+        root = ET.fromstring(svg(figure))
         if isinstance(figure, Plot):
             curves = [one.get("stroke") for one in root.iter() if one.get("stroke-width") == "1.5"]
             several = len(figure.series) > 1 or figure.series[0].label not in ("", figure.y.label, figure.title)
@@ -62,10 +61,8 @@ def test_a_label_has_one_colour_in_all_figures_of_a_page(made: Made) -> None:
 
 
 def test_curves_of_a_plot_differ_in_more_than_colour(made: Made) -> None:
-    looks = looks_of(made.report.figures)
-    for plot in (one for one in made.report.figures if isinstance(one, Plot)):
-        numbers = numbered((one.label for one in plot.series), looks)
-        styles = [(dashes(n, dashed=one.dashed), marker(n)) for n, one in zip(numbers, plot.series, strict=True)]
+    for plot in (one for one in looked(made.report.figures) if isinstance(one, Plot)):
+        styles = [(dashes(one.look, dashed=one.dashed), marker(one.look)) for one in plot.series]
         assert len(set(styles)) == len(styles), plot.name
 
 
@@ -107,7 +104,7 @@ def test_a_cursor_reads_the_curves_as_they_are() -> None:
     figure = Plot("p", "P", Axis("angle", "deg"), Axis("force", "N"), curves)
     (data,) = page_data(machine_page(Report("m", "M", {}, (), (), figures=(figure,))))
     at = np.random.default_rng(3).uniform(0.0, 2 * np.pi, 500)
-    for curve, shown in zip(curves, data["plot"]["curves"], strict=True):
+    for curve, shown in zip(curves, data["plot"]["series"], strict=True):
         assert len(shown["x"]) < 360
         assert np.abs(np.interp(at, shown["x"], shown["y"]) - np.interp(at, curve.x, curve.y)).max() < 1e-3 * 48.0
 
@@ -163,5 +160,6 @@ def test_rounding_keeps_four_digits_or_the_resolution() -> None:
 def test_more_curves_than_colours_still_differ() -> None:
     x = np.linspace(0.0, 1.0, 5)
     plot = Plot("p", "P", Axis("x"), Axis("y"), tuple(Series(f"curve {n}", x, x) for n in range(20)))
-    numbers = [looks_of((plot,))[one.label] for one in plot.series]
-    assert len({(colour(n), dashes(n), marker(n)) for n in numbers}) == 20
+    (made,) = looked((plot,))
+    assert isinstance(made, Plot)
+    assert len({(colour(one.look), dashes(one.look), marker(one.look)) for one in made.series}) == 20

@@ -1,24 +1,33 @@
 """Sentences in two languages: the catalogues agree, and what the studio says of a chart is in the page's language."""
 
+import ast
 import json
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import click
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from PIL import Image
 
 import ilmek
+from ilmek.cli import main
+from ilmek.cli.terminal import show_checks
+from ilmek.cli.verdict import WEAVES, show_verdict
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.carpet import stages
 from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest
 from ilmek.jobs.studio.carpet.tasks import chart, corners
 from ilmek.jobs.studio.words import in_page
+from ilmek.report import at_least, at_most, must
 from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language
 from ilmek.sentences.english import ENGLISH
+from ilmek.sentences.nouns_turkish import named
 
 SOURCES = Path(ilmek.__file__).parent
 FAMILIES = ("place.", "check.paper-", "yarn.count-allowed", "sheet.kind-", "sheet.duty-", "sheet.process-")
@@ -167,3 +176,62 @@ def test_a_sentence_is_its_english_text_until_it_is_said() -> None:
         assert in_page(sentence) == "listedekiler: mm, cm, dm, m, in ya da ft"
     with in_language("xx"):
         assert in_page(sentence) == sentence
+
+
+CHECKS = ("at_most", "at_least", "must", "Check")
+"""What makes checks; the name comes first."""
+
+
+def test_every_name_of_a_check_is_there_in_turkish() -> None:
+    """Those that stand in the sources as a text; names that are put together are not seen here."""
+    calls = (
+        node
+        for file in SOURCES.rglob("*.py")
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in CHECKS and node.args
+    )
+    names = {call.args[0].value for call in calls if isinstance(call.args[0], ast.Constant)}
+    assert len(names) > 300
+    assert [name for name in sorted(names) if named(name) == name and "_" not in name] == []
+
+
+def words(text: str) -> set[str]:
+    return set(re.findall(r"[^\W\d_]{2,}", text.lower()))
+
+
+@click.command()
+def report() -> None:
+    checks = (
+        at_most(
+            "deflection of the needle bar", 0.003, 0.002, "mm", "span over 2000, assumed by this project"
+        ).with_cure(Sentence("check.pile-cure")),
+        at_least("clearance: heads and warps", 0.002, 0.001, "mm", "parameter clearance"),
+        must("a servo turns the shafts", True, "motor table, margin 1.25"),
+    )
+    show_verdict(checks, WEAVES)
+    show_verdict(checks)
+    show_checks(checks)
+
+
+COMMANDS = (
+    ["chart", "none.png", "--size", "40x60", "--quality", "20x20/dm"],
+    ["chart", "none.png", "--size", "40x60cm", "--quality", "fine"],
+    ["design", "cam", "--set", "lift=9km"],
+    ["report"],
+)
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize("first", [True, False])
+def test_a_terminal_in_turkish_says_no_english(
+    command: list[str], first: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The judge: the words of the English sentences that no Turkish one has. Parameters keep their names."""
+    monkeypatch.setitem(main.modules, "report", (__name__, ""))
+    monkeypatch.setattr(sys.modules[__name__], "command", report, raising=False)
+    english, turkish = (words(" ".join(catalogue_of(language).values())) for language in ("en", "tr"))
+    foreign = english - turkish - {"cm", "lift", "clearance"}
+    told = ["--lang", "tr", *command] if first else [*command, "--lang", "tr"]
+    shown = CliRunner().invoke(main, told).output
+    assert shown != CliRunner().invoke(main, command).output
+    assert words(shown.replace("none.png", "")) & foreign == set()

@@ -7,6 +7,7 @@ import click
 
 from ilmek import __version__
 from ilmek.cli.frame import LazyGroup
+from ilmek.cli.language import language_option
 
 main = LazyGroup(
     name="ilmek",
@@ -62,4 +63,5 @@ main = LazyGroup(
         "convert": ("ilmek.cli.convert", "Turn a loom programme into text, one operation a line, and back."),
     },
 )
+main.params.append(language_option())
 click.version_option(__version__, "-V", "--version", prog_name="ilmek", message="%(prog)s %(version)s")(main)

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.language import worded
 from ilmek.cli.options import file_option, force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import say, show_checks, show_table
@@ -88,7 +89,7 @@ def command(
 
 def _show(shown: Report, solution: Solution | None) -> None:
     """Print motions, checks, and the result of the solver."""
-    say(shown.title)
+    say(worded(shown.title))
     show_verdict(shown.checks)
     for table in shown.tables:
         if table.name != "binding":

@@ -13,12 +13,13 @@ import importlib
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from typing import Any, cast
 
 import click
 
 from ilmek.cli.interrupts import interrupted, leave, supervised
+from ilmek.cli.language import language_option, speak, told
 from ilmek.errors import IlmekError, did_you_mean
 
 CLOSED = 128 + 13
@@ -43,7 +44,15 @@ class LazyGroup(click.Group):
         """The command, loaded from its module; None for an unknown name."""
         if cmd_name not in self.modules:
             return None
-        return cast(click.Command, importlib.import_module(self.modules[cmd_name][0]).command)
+        return _speaking(cast(click.Command, importlib.import_module(self.modules[cmd_name][0]).command))
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; an error that a user can correct is in the language of the command."""
+        try:
+            return super().invoke(ctx)
+        except IlmekError as error:
+            error.args = (told(error),)
+            raise
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -94,6 +103,17 @@ class LazyGroup(click.Group):
             leave(f"{error.filename or 'the output'} cannot be read or written: {error.strerror or error}", 2)
         _note_rebuilt_kernels()
         sys.exit(status if isinstance(status, int) else 0)
+
+
+@cache
+def _speaking(command: click.Command) -> click.Command:
+    """The command with --lang; one that has a language for its files speaks it where it has every sentence."""
+    own = next((one for one in command.params if "--lang" in one.opts), None)
+    if own is None:
+        command.params.append(language_option(hidden=True))
+    else:
+        own.callback = speak
+    return command
 
 
 def _help_alone() -> None:

@@ -3,10 +3,12 @@
 import math
 from collections.abc import Sequence
 
+from ilmek.cli.language import worded
 from ilmek.cli.terminal import say, show_checks, show_table
 from ilmek.cli.verdict import CHECKS, WEAVES, show_verdict
 from ilmek.errors import ParameterError
 from ilmek.report import Check, Choice, Column, Report, Table, result_text, rounded
+from ilmek.sentences import Sentence
 from ilmek.units import format_number, from_si, printed_unit
 
 
@@ -17,14 +19,14 @@ def headline_of(report: Report) -> str:
 
 def show_report(report: Report) -> None:
     """Print the verdict with its reasons, results, brief tables, choices and checks."""
-    say(report.title)
+    say(worded(report.title))
     show_verdict(report.all_checks, headline_of(report), report.nearest)
     shown = [(r.name, result_text(r.value, r.unit), r.meaning) for r in report.results if r.shown]
-    show_table(("result", "value", "meaning"), shown, right=(1,))
+    show_table(("result", "value", "meaning"), shown, right=(1,), words=(2,))
     more = [result.name for result in report.results if not result.shown]
     more += [f"{child.key}.*" for child in report.children]
     if more:
-        say(f"with --json also: {', '.join(more)}")
+        say(Sentence("terminal.with-json", names=", ".join(more)))
     for table in report.tables:
         if table.brief:
             show_report_table(table)
@@ -50,24 +52,24 @@ def tables_named(report: Report, name: str) -> tuple[Table, ...]:
 def show_self_tests(tests: Sequence[Check]) -> None:
     """Print the tests of the computation in one line: how many pass, or those that do not; nothing without tests."""
     failed = [test.name for test in tests if not test.ok]
-    passed = "the only one passes" if len(tests) == 1 else f"all {len(tests)} pass"
-    if tests:
-        how = f"{len(failed)} of {len(tests)} failed: {'; '.join(failed)}" if failed else passed
-        say(f"tests of the computation: {how}")
+    if failed:
+        say(Sentence("terminal.tests-failed", failed=len(failed), count=len(tests), names="; ".join(failed)))
+    elif tests:
+        say(Sentence("terminal.tests-one" if len(tests) == 1 else "terminal.tests", count=len(tests)))
 
 
 def show_choices(choices: Sequence[Choice]) -> None:
     """Print what was chosen of what was left open, and why nothing cheaper was."""
     rows = [(choice.name, choice.chosen, choice.decided_by, choice.next_cheaper, choice.failed) for choice in choices]
-    show_table(("choice", "chosen", "decided by", "next cheaper", "fails"), rows)
+    show_table(("choice", "chosen", "decided by", "next cheaper", "fails"), rows, words=(2, 4))
 
 
 def show_report_table(table: Table) -> None:
     """Print a table of the report, numbers in the units of their columns."""
-    say(table.title)
+    say(worded(table.title))
     units = [printed_unit(column.unit) for column in table.columns]
     headings = [
-        f"{column.heading} ({unit})" if unit else column.heading
+        f"{worded(column.heading)} ({unit})" if unit else column.heading
         for column, unit in zip(table.columns, units, strict=True)
     ]
     rows = [[cell_text(cell, column) for cell, column in zip(row, table.columns, strict=True)] for row in table.rows]

@@ -1,6 +1,7 @@
 """Output for people: short tables on standard output, notes and a progress bar on the error stream.
 
-Every text goes through `printable`: no text of a file or argument controls the terminal.
+Every text goes through `said`: it is in the language of --lang, and no text of a file or argument controls the
+terminal.
 The library for tables and bars is imported when the first is drawn; JSON output does not need it.
 """
 
@@ -11,9 +12,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ilmek.errors import printable
+from ilmek.cli.language import said, worded
 from ilmek.num.compiled import COMPILATIONS
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -33,35 +35,41 @@ def console() -> "Console":
 
 def say(text: str) -> None:
     """Print a text on standard output."""
-    console().print(printable(text))
+    console().print(said(text))
 
 
 def show_table(
-    headings: Sequence[str], *groups: Sequence[Sequence[str]], right: Sequence[int] = (), wide: Sequence[int] = ()
+    headings: Sequence[str],
+    *groups: Sequence[Sequence[str]],
+    right: Sequence[int] = (),
+    wide: Sequence[int] = (),
+    words: Sequence[int] = (),
 ) -> None:
     """Print a table; lines divide its groups of rows.
 
     right  indices of columns aligned to the right
     wide   indices of columns that are never broken
+    words  indices of columns with words of the engine, which are said in the language of the command
     """
     from rich import box
     from rich.table import Table
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(headings):
-        table.add_column(printable(heading), justify="right" if index in right else "left", no_wrap=index in wide)
+        table.add_column(worded(heading), justify="right" if index in right else "left", no_wrap=index in wide)
     for rows in groups:
         for row in rows:
-            table.add_row(*map(printable, row))
+            table.add_row(*(worded(cell) if index in words else said(cell) for index, cell in enumerate(row)))
         table.add_section()
     console().print(table)
 
 
 def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
     """Print names and values, one line each. Lines are never broken, so that a path can be copied."""
-    width = max(len(name) for name, _ in pairs)
-    for name, value in pairs:
-        click.echo(printable(f"{name:<{width}}  {value}"))
+    lines = [(worded(name), said(value)) for name, value in pairs]
+    width = max(len(name) for name, _ in lines)
+    for name, value in lines:
+        click.echo(f"{name:<{width}}  {value}")
 
 
 def show_checks(checks: "Sequence[Check]") -> None:
@@ -80,12 +88,12 @@ def show_checks(checks: "Sequence[Check]") -> None:
         for check in ordered
         for value, limit in [in_words(check)]
     ]
-    show_table(("check", "", "value", "limit", "source"), rows, right=(2,))
+    show_table(("check", "", "value", "limit", "source"), rows, right=(2,), words=range(5))
 
 
 def note(text: str) -> None:
     """Print a note of one line on the error stream."""
-    click.echo(f"note: {' '.join(printable(text).split())}", err=True)
+    click.echo(said(Sentence("terminal.note", text=" ".join(said(text).split()))), err=True)
 
 
 @contextlib.contextmanager
@@ -107,6 +115,6 @@ def progress_bar() -> Iterator[Progress]:
             task, description=f"compiling for this processor, once: kernel {number}"
         )
         try:
-            yield Progress(lambda stage, share: bar.update(task, description=printable(stage), completed=share))
+            yield Progress(lambda stage, share: bar.update(task, description=said(stage), completed=share))
         finally:
             COMPILATIONS.listener = None

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 import click
 
+from ilmek.cli.language import said, worded
 from ilmek.cli.terminal import note
-from ilmek.errors import printable
 from ilmek.report import Check, in_words, reasons
+from ilmek.sentences import Sentence, joined
 
 CHECK_FAILS = 3
 """Exit code of a command that is done and has a check that fails."""
@@ -29,18 +30,18 @@ def show_verdict(checks: Sequence[Check], headline: str = CHECKS, nearest: str =
     """
     if checks:
         failed = reasons(checks)
-        click.echo(f"{headline}: {_words(checks, failed, headline)}")
+        click.echo(said(_outcome(checks, failed, headline)))
         for reason in failed:
-            click.echo(printable(f"  {line(reason)}"))
+            click.echo(f"  {said(line(reason))}")
         if nearest:
-            click.echo(f"nearest that weaves: {nearest}")
+            click.echo(said(Sentence("terminal.nearest", text=nearest)))
 
 
 def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
     """A note with the headline and the names of the reasons, where standard output has something else."""
     if failed := reasons(checks):
-        names = "; ".join(reason.name for reason in failed)
-        note(f"{headline}: {_words(checks, failed, headline)}: {names}")
+        names = "; ".join(worded(reason.name) for reason in failed)
+        note(Sentence("at", where=_outcome(checks, failed, headline), text=names))
 
 
 def line(reason: Check) -> str:
@@ -50,12 +51,19 @@ def line(reason: Check) -> str:
     'sag: 3 mm, must be at most 2 mm; set a stiffer rail'
     """
     value, limit = in_words(reason)
-    relation = {"<=": "at most ", ">=": "at least "}.get(reason.relation, f"{reason.relation} ")
-    must = f"{value}, must be {relation}{limit}" if limit != "yes" else f"{value}, {reason.source}"
-    return f"{reason.name}: {must}{'; ' if reason.cure else ''}{reason.cure}"
+    if limit == "yes":
+        must = Sentence("terminal.must", value=value, source=reason.source)
+    else:
+        must = Sentence(_LIMITS.get(reason.relation, "terminal.must-be"), value=value, limit=limit)
+    return joined(Sentence("at", where=reason.name, text=must), reason.cure)
 
 
-def _words(checks: Sequence[Check], failed: Sequence[Check], headline: str) -> str:
-    if headline == WEAVES:
-        return f"NO, {len(failed)} {'reason' if len(failed) == 1 else 'reasons'}" if failed else "yes"
-    return f"{len(checks) - len(failed)} passed, {len(failed)} failed"
+_LIMITS = {"<=": "terminal.at-most", ">=": "terminal.at-least"}
+
+
+def _outcome(checks: Sequence[Check], failed: Sequence[Check], headline: str) -> Sentence:
+    if headline != WEAVES:
+        return Sentence("terminal.checks", passed=len(checks) - len(failed), failed=len(failed))
+    if not failed:
+        return Sentence("terminal.weaves")
+    return Sentence("terminal.weaves-not-one" if len(failed) == 1 else "terminal.weaves-not", count=len(failed))

@@ -12,7 +12,7 @@ from ilmek.jobs.animation_order import GIF
 from ilmek.progress import Progress
 from ilmek.report import Animation, Report
 from ilmek.viz.animation_frames import COLOURS, PICTURES, RATE, pictures
-from ilmek.viz.looks import looks_of
+from ilmek.viz.looks import looked
 
 
 def write_animation(
@@ -23,14 +23,13 @@ def write_animation(
     motion  name of the figure; default: the first one of the machine itself, else of the machines in it
     Raises ParameterError where nothing moves, and for an unknown motion; OutputError; Cancelled.
     """
-    found = {animation.name: (owner, animation) for owner, animation in reversed(list(_moving(report)))}
+    found = {animation.name: animation for animation in reversed(list(_moving(report)))}
     if not found:
         raise ParameterError(f"--animation {path}: {report.title} shows no motion", do="leave --animation out")
     name = motion or list(found)[-1]
     if name not in found:
         raise ParameterError(f"--motion {name}", allowed=f"one of {', '.join(reversed(found))}")
-    owner, animation = found[name]
-    frames = _counted(pictures(animation, looks_of(owner.figures)), progress)
+    frames = _counted(pictures(found[name]), progress)
     if path.suffix.lower() == GIF:
         outputs.write(path, gif(frames, RATE, COLOURS))
         return
@@ -38,9 +37,9 @@ def write_animation(
         write_mp4(staged, frames, RATE)
 
 
-def _moving(report: Report) -> Iterator[tuple[Report, Animation]]:
-    """The figures that move, each with the report that shows it; those of the machine itself first."""
-    yield from ((report, figure) for figure in report.figures if isinstance(figure, Animation))
+def _moving(report: Report) -> Iterator[Animation]:
+    """The figures that move, with the looks that they have in their report; those of the machine itself first."""
+    yield from (figure for figure in looked(report.figures) if isinstance(figure, Animation))
     for child in report.children:
         yield from _moving(child)
 

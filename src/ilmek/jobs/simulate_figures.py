@@ -45,7 +45,7 @@ def _stops(found: CarpetStatistics) -> StackedBars:
     note = "The operator's time counts from the call to the end of the repair; in the rest of it other heads tie knots."
     kinds = ("standstill of the loom", "operator, while heads tie knots")
     bars = tuple(f"{stop['cause']} ({stop['faults']})" for stop in stops)
-    values = np.column_stack([lost, beside])
+    values = tuple(np.column_stack([lost, beside]))
     return StackedBars("stops", "Stops by cause (faults)", Axis("time", "min"), bars, kinds, values, note)
 
 
@@ -137,7 +137,7 @@ def _uses(found: CarpetStatistics) -> StackedBars:
     bars = tuple(f"head {head + 1}" for head in range(_shown_heads(found)))
     title = "What each head's time is used for"
     return StackedBars("uses", title, Axis("time", "h"), bars, tuple(WORDS.values()),
-                       found.by_head[: len(bars)], _first_heads(found).strip())  # fmt: skip
+                       tuple(found.by_head[: len(bars)]), _first_heads(found).strip())  # fmt: skip
 
 
 def _progress(found: CarpetStatistics) -> Plot:

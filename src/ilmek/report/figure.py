@@ -1,4 +1,8 @@
-"""Figures as plain data: plots, drawings to scale, machines in motion, cyclograms. Values are SI."""
+"""Figures as plain data: plots, drawings to scale, machines in motion, cyclograms. Values are SI.
+
+The look of a curve, stroke, lane or kind is the number of its colour, marker and dashes, -1: none of its own. Whoever
+draws figures gives their labels looks, see `viz.looks`.
+"""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -24,6 +28,7 @@ class Series:
     x: FloatArray
     y: FloatArray
     dashed: bool = False
+    look: int = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +65,7 @@ class Stroke:
     label: str = ""
     closed: bool = False
     filled: bool = False
+    look: int = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +106,7 @@ class MovingStroke:
     role: str
     label: str = ""
     closed: bool = False
+    look: int = -1
 
 
 @record
@@ -191,7 +198,7 @@ class Lane:
     angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
     events    named master angles [rad]
     moves     its motions, where they are known, in order, and the `unit` their positions are shown in
-    motion    position [SI], velocity and acceleration [SI, s] at the angles, (3, angles), where they are known
+    motion    position [SI], velocity and acceleration [SI, s] at the angles; empty where they are not known
     shades    windows to be shaded
     """
 
@@ -203,7 +210,8 @@ class Lane:
     moves: tuple[Move, ...] = ()
     unit: str = ""
     shades: tuple[Shade, ...] = ()
-    motion: FloatArray | None = None
+    motion: tuple[FloatArray, ...] = ()
+    look: int = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,19 +266,21 @@ class Gantt(Shown):
     kinds: tuple[str, ...]
     note: str = ""
     pale: int = 0
+    looks: tuple[int, ...] = ()
 
 
 @record
 class StackedBars(Shown):
-    """Horizontal bars, each of parts side by side, one for each kind; SI values, (bars, kinds)."""
+    """Horizontal bars, each of parts side by side, one for each kind; SI values by kind of each bar."""
 
     name: str
     title: str
     x: Axis
     bars: tuple[str, ...]
     kinds: tuple[str, ...]
-    values: FloatArray
+    values: tuple[FloatArray, ...]
     note: str = ""
+    looks: tuple[int, ...] = ()
 
 
 Figure: TypeAlias = Plot | Drawing | Animation | Timing | Gantt | StackedBars

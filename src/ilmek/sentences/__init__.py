@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from ilmek.sentences.english import ENGLISH
 from ilmek.sentences.nouns_turkish import named
+from ilmek.sentences.terminal_turkish import WORDS
 from ilmek.sentences.weaver_english import NOUNS
 
 LATIN, PERSIAN, DEVANAGARI = "0123456789", "۰۱۲۳۴۵۶۷۸۹", "०१२३४५६७८९"
@@ -46,6 +47,10 @@ WEAVERS = LANGUAGES | {
 _SPOKEN = ContextVar("language", default=DEFAULT)
 
 
+GIVEN = frozenset(("file", "key", "name", "option"))
+"""Places in sentences for what a person calls it: files, their keys, parameters."""
+
+
 class Sentence(str):
     """A text of the catalogue.
 
@@ -66,6 +71,12 @@ class Sentence(str):
 
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
         return (self.key,), dict(self.values)
+
+
+class Name(str):
+    """A name that somebody gave: it is said in no other language, and keeps its digits."""
+
+    __slots__ = ()
 
 
 _NOUNS = {text: key for key, text in NOUNS.items()}
@@ -139,6 +150,8 @@ def in_language(language: str) -> Iterator[None]:
 def translated(text: str) -> str:
     """A text in the language that is spoken; of one that is no sentence the nouns of machines, where they are known.
 
+    What stands in the places of GIVEN stays.
+
     >>> with in_language("tr"):
     ...     translated(Sentence("size.one-side", text="120cm")), translated("120cm")
     ("'120cm' boyutunun tek kenarı var", '120cm')
@@ -146,7 +159,18 @@ def translated(text: str) -> str:
     if not isinstance(text, Sentence):
         return named(text) if _SPOKEN.get() == "tr" else text
     template = catalogue_of(_SPOKEN.get()).get(text.key, ENGLISH[text.key])
-    return template.format(**{name: translated(value) for name, value in text.values.items()})
+    stays = {place: value for place, value in text.values.items() if place in GIVEN and type(value) is str}
+    return template.format(**{place: translated(value) for place, value in text.values.items()} | stays)
+
+
+def headed(text: str) -> str:
+    """A heading of a table, or the name of a value beside it, in the language that is spoken.
+
+    >>> with in_language("tr"):
+    ...     headed("colour changes")
+    'renk değişimleri'
+    """
+    return (WORDS.get(text) if _SPOKEN.get() == "tr" else None) or translated(text)
 
 
 def language_spoken() -> Language:

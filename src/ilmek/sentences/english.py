@@ -3,6 +3,7 @@
 from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.papers_english import PAPERS
 from ilmek.sentences.sheets_english import SHEETS
+from ilmek.sentences.terminal_english import TERMINAL
 from ilmek.sentences.weaver_english import WEAVER
 
 ENGLISH = {
@@ -25,6 +26,12 @@ ENGLISH = {
     "corners",
     "check.chosen": "chosen by this project on drawings and photographs",
     "check.pile": "pile: share of the ground filled",
+    "check.kilim-slit": "kilim: longest open slit",
+    "check.kilim-slit-source": "a slit along the warps that no weft crosses",
+    "check.kilim-slit-cure": "--kilim join=dovetail or join=interlock, or step the border: {places}",
+    "check.kilim-time": "weaving time",
+    "check.kilim-one": "the deadline given, one weaver",
+    "check.kilim-time-cure": "give more time, or more weavers",
     "check.one-knife": "the knife of a head stands at one height and cuts every knot",
     "check.pile-by-hand": "--loom knotting=hand: weavers cut by eye; or give one pile, and shear the rest after",
     "check.pile-heights": "pile: heights that a head cuts",
@@ -208,5 +215,6 @@ ENGLISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **TERMINAL,
     **ORDER,
 }  # fmt: skip

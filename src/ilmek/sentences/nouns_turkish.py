@@ -8,6 +8,8 @@ The suffix of possession follows the last vowel; k after a vowel becomes ğ, ç 
 import re
 from functools import lru_cache
 
+from ilmek.sentences.checks_turkish import CHECKS, SOURCES
+
 _NOUNS = """
 amplifier = yükselteç | brake = fren | braking module = frenleme modül+ü | cabinet = pano | fuse = sigorta
 enabling switch for setting up = ayar için onay anahtar+ı | mode selector = mod seçici
@@ -177,8 +179,12 @@ its clamp grips the end of the rapier with its own screws = kelepçesi kancanın
 
 NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair in line.split(" | "))
 
+_PHRASES = SOURCES | CHECKS
+
 _OF = re.compile(r"(.+?) of (?:the |an? |such a )?(.+)")
 _ITS = re.compile(r"(.+?)(?:'s|(?<=s)') (.+)")
+_SENTENCE = re.compile(r"[a-z]{3,} [a-z]{2,}")
+_PARAMETER = re.compile(r"parameters? ([\w.]+)")
 _PIECES = re.compile(r"(; |: |\d+ × | \d+$)")
 _CAPITALS = str.maketrans("i", "İ")
 _VOWELS = {"a": "ı", "ı": "ı", "e": "i", "i": "i", "o": "u", "u": "u", "ö": "ü", "ü": "ü"}
@@ -190,8 +196,15 @@ def named(text: str) -> str:
 
     >>> named("2 × bearing of the cam shaft; 1 × heads' rail"), named("weaver: sley-follower"), named("NEMA 17")
     ('2 × kam mili yatağı; 1 × kafalar rayı', 'dokuma kafası: tefe tarağı izleyicisi', 'NEMA 17')
+    >>> named("Beat-up: stress of a leaf")
+    'Tefeleme: yaprağın gerilmesi'
     """
+    if text in _PHRASES:
+        return _PHRASES[text]
     whole = None if "; " in text else _noun(text)
+    head, colon, rest = text.partition(": ")
+    if whole is None and colon and "; " not in text:
+        return f"{named(head)}: {named(rest)}"
     if whole is None:
         whole = "".join(map(_listed, _PIECES.split(text)))
     if whole == text and text[:1].isupper():
@@ -202,7 +215,21 @@ def named(text: str) -> str:
 
 
 def _listed(text: str) -> str:
-    return _noun(text) or ", ".join(_noun(piece) or piece for piece in text.split(", "))
+    pieces = text.split(", ")
+    known = [_piece(piece) for piece in pieces]
+    if any(new is None and _SENTENCE.search(piece) for new, piece in zip(known, pieces, strict=True)):
+        return _piece(text) or text
+    return _piece(text) or ", ".join(new or piece for new, piece in zip(known, pieces, strict=True))
+
+
+def _piece(text: str) -> str | None:
+    parameter = _PARAMETER.fullmatch(text)
+    known = f"parametre {parameter[1]}" if parameter else _PHRASES.get(text) or _noun(text)
+    first, both, second = text.partition(" and ")
+    if known is None and both:
+        pair = _noun(first), _noun(second)
+        return f"{pair[0]} ile {pair[1]}" if all(pair) else None
+    return known
 
 
 @lru_cache(maxsize=4096)

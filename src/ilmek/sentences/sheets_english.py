@@ -171,7 +171,7 @@ SHEETS = {
     "sheet.make": "make",
     "sheet.buy": "buy",
     "sheet.reasons": "NOT RELEASED: the design does not hold these checks",
-    "sheet.reason": "{name}: {cure}",
+    "sheet.reason": "{reason}: {cure}",
     "sheet.more-reasons": "and {count} more: see the report",
     "sheet.book": "Drawings: {title}",
 }

@@ -171,7 +171,7 @@ SHEETS = {
     "sheet.make": "imalat",
     "sheet.buy": "alım",
     "sheet.reasons": "ONAYLANMADI: tasarım bu denetimleri sağlamıyor",
-    "sheet.reason": "{name}: {cure}",
+    "sheet.reason": "{reason}: {cure}",
     "sheet.more-reasons": "ve {count} tane daha: rapora bakın",
     "sheet.book": "Teknik resimler: {title}",
 }

@@ -3,6 +3,7 @@
 from ilmek.sentences.order_turkish import ORDER
 from ilmek.sentences.papers_turkish import PAPERS
 from ilmek.sentences.sheets_turkish import SHEETS
+from ilmek.sentences.terminal_turkish import TERMINAL
 from ilmek.sentences.weaver_turkish import WEAVER
 
 TURKISH = {
@@ -25,6 +26,12 @@ TURKISH = {
     "rengidir",
     "check.chosen": "bu proje tarafından çizimler ve fotoğraflar üzerinde seçildi",
     "check.pile": "hav: doldurulan zemin payı",
+    "check.kilim-slit": "kilim: en uzun açık yarık",
+    "check.kilim-slit-source": "hiçbir atkının geçmediği, çözgü boyunca bir yarık",
+    "check.kilim-slit-cure": "--kilim join=dovetail ya da join=interlock, ya da sınırı basamaklı yapın: {places}",
+    "check.kilim-time": "dokuma süresi",
+    "check.kilim-one": "verilen süre, bir dokuyucu",
+    "check.kilim-time-cure": "daha çok süre ya da daha çok dokuyucu",
     "check.one-knife": "bir başlığın bıçağı tek yükseklikte durur ve her ilmeği keser",
     "check.pile-by-hand": "--loom knotting=hand: dokuyucular gözle keser; ya da tek hav verin, gerisini sonra kırkın",
     "check.pile-heights": "hav: bir başlığın kestiği yükseklikler",
@@ -208,5 +215,6 @@ TURKISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **TERMINAL,
     **ORDER,
 }  # fmt: skip

@@ -34,7 +34,7 @@ def _lane(cyclogram: Cyclogram, track: Track, step: float) -> Lane:
     angle = np.unique(np.concatenate([np.linspace(0, turn, round(turn / step) + 1), joints(track)]))
     drawn = sample(track, angle)
     position, speed = drawn.position, turn / cyclogram.period
-    motion = np.stack([position, speed * drawn.slope, speed**2 * drawn.bend])
+    motion = position, speed * drawn.slope, speed**2 * drawn.bend
     share = (position - position.min()) / (np.ptp(position) or 1.0)
     events = tuple(Mark(event.angle, event.name) for event in track.events)
     moves = tuple(_move(part) for part in laid(track))

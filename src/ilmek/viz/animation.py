@@ -1,13 +1,14 @@
 """Machines in motion as figures that stand still: a drawing to scale of a frame, on a sheet that holds all frames."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import alike
 from ilmek.report import Animation, Dot, Drawing, Stroke
-from ilmek.viz.drawing import draw_still, extent, look_numbers, names, obstacles, pen_for
+from ilmek.viz.drawing import draw_still, extent, names, obstacles, pen_for
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
 
@@ -15,9 +16,9 @@ Between = Callable[[ComplexArray], ComplexArray]
 """Values over the frames (frames, ...) -> those at a frame, or between two."""
 
 
-def draw_animation(animation: Animation, looks: Mapping[str, int]) -> Sheet:
+def draw_animation(animation: Animation) -> Sheet:
     """The figure at the frame that is shown first."""
-    pen = pen_of(animation, looks)
+    pen = pen_of(animation)
     moving = moving_at(animation, between(animation, animation.start))
     shown = replace(
         animation.still,
@@ -34,18 +35,17 @@ def unnamed(stroke: Stroke) -> Stroke:
     return replace(stroke, label="") if stroke.role == "path" else stroke
 
 
-def pen_of(animation: Animation, looks: Mapping[str, int]) -> Pen:
-    """The pen of a sheet that holds all frames; its strokes are the still ones, then the moving ones."""
+def pen_of(animation: Animation) -> Pen:
+    """The pen of a sheet that holds all frames."""
     everywhere = [*(stroke.points.ravel() for stroke in animation.strokes), *(dot.at for dot in animation.dots)]
-    strokes = (*animation.still.strokes, *moving_at(animation, between(animation, 0)).strokes)
     points = np.concatenate([extent(animation.still), *everywhere])
-    return pen_for(points, look_numbers(strokes, looks), animation.still.unit)
+    return pen_for(points, animation.still.unit)
 
 
 def moving_at(animation: Animation, at: Between) -> Drawing:
     """What moves, at a frame; areas are filled."""
     strokes = tuple(
-        Stroke(at(stroke.points), stroke.role, stroke.label, stroke.closed, stroke.closed and stroke.role == "link")
+        alike(Stroke, stroke, points=at(stroke.points), filled=stroke.closed and stroke.role == "link")
         for stroke in animation.strokes
     )
     dots = tuple(

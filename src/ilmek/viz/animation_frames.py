@@ -1,6 +1,6 @@
 """Pictures of a machine in motion, for a GIF or a video: the figure of the page with its drive and its readings."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -58,10 +58,10 @@ class _Slot:
         return text + (NARROW_SPACE if unit not in ("", "°", "%") else "") + unit
 
 
-def pictures(animation: Animation, looks: Mapping[str, int]) -> Iterator[Image.Image]:
+def pictures(animation: Animation) -> Iterator[Image.Image]:
     """The pictures of a run: a turn that closes, or forth and back. Between frames, points move on straight lines."""
     slots, low = _slots(animation)
-    pen = pen_of(animation, looks)
+    pen = pen_of(animation)
     scale, height = PIXELS * FINER / WIDTH, low + pen.sheet.height + _HEAD
     ground = Canvas(WIDTH, height, scale)
     ground.draw(_head_and_readings(animation.title, slots, height))
@@ -94,15 +94,14 @@ def _moving(pen: Pen, animation: Animation, low: float) -> Callable[[Between], S
     """What draws the moving strokes and all dots at a frame on a sheet that begins `low` [pt] below that of the pen,
     which gets the rest.
     """
-    still, first = animation.still, len(animation.still.strokes)
+    still = animation.still
     quiet = replace(still, strokes=tuple(map(unnamed, still.strokes)), dots=())
     draw_still(pen, quiet)
     names(pen, quiet, np.concatenate([obstacles(pen, still), *_covered(pen, animation)]))
-    numbers = {index - first: number for index, number in pen.numbers.items() if index >= first}
 
     def drawn(at: Between) -> Sheet:
         sheet, origin = Sheet(pen.sheet.width, pen.sheet.height + low), pen.origin - 1j * low / pen.scale
-        over, moving = replace(pen, sheet=sheet, origin=origin, numbers=numbers, shown={}), moving_at(animation, at)
+        over, moving = replace(pen, sheet=sheet, origin=origin, shown={}), moving_at(animation, at)
         over.shown.update((stroke, over(stroke.points)) for stroke in moving.strokes)
         draw_parts(over, replace(moving, dots=(*still.dots, *moving.dots)))
         return over.sheet
@@ -118,13 +117,10 @@ def _covered(pen: Pen, animation: Animation) -> list[ComplexArray]:
 
 def _labels(pen: Pen, animation: Animation) -> list[tuple[ComplexArray, str, float, str]]:
     """The names of dots and lines: middles over the frames [pt], text, size, colour."""
-    frames, first = len(animation.at), len(animation.still.strokes)
+    frames = len(animation.at)
     named = [(np.full(frames, dot.at), dot.label, STRONG, INK) for dot in animation.still.dots]
     named += [(dot.at, dot.label, STRONG, INK) for dot in animation.dots]
-    named += [
-        (middle(stroke.points), stroke.label, TEXT, shade_of(pen, stroke.role, number))
-        for number, stroke in enumerate(animation.strokes, first)
-    ]
+    named += [(middle(stroke.points), stroke.label, TEXT, shade_of(stroke)) for stroke in animation.strokes]
     own = [named[number] for number in first_of_each([label for _, label, _, _ in named])]
     requests = [LabelRequest(pen(at), label, size, 6.0) for at, label, size, _ in own]
     corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)

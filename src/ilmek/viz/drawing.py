@@ -4,16 +4,13 @@ The layout is in points, so that names, hatches and arrows have the same size fo
 scale.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.records import JsonObject
-from ilmek.report import Drawing, Stroke
+from ilmek.report import Drawing, MovingStroke, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.labels import LabelRequest, placed
-from ilmek.viz.looks import COLOURED, numbered
 from ilmek.viz.scale import tick_labels
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import DOTS, STROKES, Pen
@@ -28,9 +25,9 @@ _LEAST, _MOST = 90.0, 330.0
 """Least and greatest height of the drawn part [pt]."""
 
 
-def draw_drawing(drawing: Drawing, looks: Mapping[str, int]) -> Sheet:
+def draw_drawing(drawing: Drawing) -> Sheet:
     """The drawing as large as the sheet allows, with equal scales in x and y and a scale bar below."""
-    pen = pen_for(extent(drawing), look_numbers(drawing.strokes, looks), drawing.unit)
+    pen = pen_for(extent(drawing), drawing.unit)
     draw_still(pen, drawing)
     names(pen, drawing, obstacles(pen, drawing))
     return pen.sheet
@@ -42,12 +39,11 @@ def extent(drawing: Drawing) -> ComplexArray:
     return np.concatenate([*(stroke.points for stroke in drawing.strokes), dots])
 
 
-def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT) -> Pen:
+def pen_for(points: ComplexArray, unit: str, foot: float = FOOT) -> Pen:
     """A pen on a sheet that contains all points [m], with space below for the scale bar.
 
-    numbers  look of each stroke, by index
-    unit     of the scale bar
-    foot     height of the space below [pt]
+    unit  of the scale bar
+    foot  height of the space below [pt]
     """
     finite = points[np.isfinite(points)]
     lower, upper = _corners(finite) if len(finite) else (0j, 1 + 1j)
@@ -55,7 +51,7 @@ def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: f
     scale = min((WIDTH - 2 * _MARGIN) / max(size.real, 1e-12), (_MOST - 2 * _MARGIN) / max(size.imag, 1e-12))
     high = max(size.imag * scale + 2 * _MARGIN, _LEAST)
     centre = complex(WIDTH / 2, foot + high / 2)
-    return Pen(Sheet(WIDTH, high + foot), scale, (lower + upper) / 2 - centre / scale, numbers, unit)
+    return Pen(Sheet(WIDTH, high + foot), scale, (lower + upper) / 2 - centre / scale, unit)
 
 
 def draw_still(pen: Pen, drawing: Drawing) -> None:
@@ -68,20 +64,14 @@ def draw_parts(pen: Pen, drawing: Drawing) -> None:
     """Draw strokes and dots."""
     if drawing.strokes:
         pen.thinned(drawing.strokes[0], drawing.strokes)
-    for number, stroke in enumerate(drawing.strokes):
-        STROKES[stroke.role](pen, stroke, number)
+    for stroke in drawing.strokes:
+        STROKES[stroke.role](pen, stroke)
     for dot in drawing.dots:
         DOTS[dot.role](pen, complex(pen(np.array([dot.at]))[0]), dot.along)
 
 
 def _corners(points: ComplexArray) -> tuple[complex, complex]:
     return (complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max()))
-
-
-def look_numbers(strokes: tuple[Stroke, ...], looks: Mapping[str, int]) -> dict[int, int]:
-    """The look of each coloured stroke, by index; strokes without a label have looks of their own."""
-    order = [index for role in COLOURED for index, stroke in enumerate(strokes) if stroke.role == role]
-    return dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
 
 
 def _beside(points: ComplexArray, closed: bool) -> ComplexArray:
@@ -109,12 +99,12 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
             requests.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))
             looks.append({"color": INK, "bold": True, "fontsize": STRONG})
     seen: set[str] = set()
-    for number, stroke in enumerate(drawing.strokes):
+    for stroke in drawing.strokes:
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:
             seen.add(stroke.label)
             anchors = _beside(pen.thinned(stroke, drawing.strokes), stroke.closed)
             requests.append(LabelRequest(anchors, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
-            looks.append({"color": shade_of(pen, stroke.role, number), "fontsize": TEXT})
+            looks.append({"color": shade_of(stroke), "fontsize": TEXT})
     corner = complex(pen.sheet.width, pen.sheet.height)
     centres = placed(requests, covered, complex(2.0, foot), corner - (2 + 2j))
     for one, centre, look in zip(requests, centres, looks, strict=True):
@@ -122,11 +112,11 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
     return [(centre, one.half) for one, centre in zip(requests, centres, strict=True)]
 
 
-def shade_of(pen: Pen, role: str, number: int) -> str:
-    """The colour of the letters of a stroke's name, by its role and its number in the drawing."""
-    if number in pen.numbers:
-        return letters(colour(pen.numbers[number]))
-    return {"yarn": YARN, "outline": INK}.get(role, MUTED)
+def shade_of(stroke: Stroke | MovingStroke) -> str:
+    """The colour of the letters of a stroke's name, by its look or else its role."""
+    if stroke.look >= 0:
+        return letters(colour(stroke.look))
+    return {"yarn": YARN, "outline": INK}.get(stroke.role, MUTED)
 
 
 def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:

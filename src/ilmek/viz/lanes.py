@@ -1,15 +1,14 @@
 """Lanes over one axis: Gantt charts, and horizontal bars of parts side by side."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.report import Axis, Gantt, GanttLane, StackedBars
+from ilmek.report import Gantt, GanttLane, StackedBars
 from ilmek.units import parse_unit
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, lower_axis, paper
-from ilmek.viz.looks import numbered
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.style import AXIS, STRONG, TEXT, colour, in_unit, tint, with_unit
@@ -25,11 +24,11 @@ _LEAST = 0.7
 """Least width of a span [pt]: a short stop of a long carpet is still seen."""
 
 
-def draw_gantt(gantt: Gantt, looks: Mapping[str, int]) -> Sheet:
+def draw_gantt(gantt: Gantt) -> Sheet:
     """The sheet of a Gantt chart, the first lane on top; short spans lie over long ones."""
     used = sorted({int(kind) for lane in gantt.lanes for kind in np.unique(lane.kinds)})
     most = max([1e-9, *(float(lane.ends.max()) for lane in gantt.lanes if len(lane.ends))])
-    frame = _Frame(gantt.x, [lane.name for lane in gantt.lanes], gantt.kinds, used, most, looks)
+    frame = _Frame(gantt, [lane.name for lane in gantt.lanes], used, most)
     frame.make_pale(gantt.pale)
     for index, lane in enumerate(gantt.lanes):
         for kind, low, high in _merged(lane, frame):
@@ -60,12 +59,12 @@ def _merged(lane: GanttLane, frame: "_Frame") -> list[tuple[int, float, float]]:
     return sorted(spans, key=lambda span: span[1] - span[2])
 
 
-def draw_stacked(bars: StackedBars, looks: Mapping[str, int]) -> Sheet:
+def draw_stacked(bars: StackedBars) -> Sheet:
     """The sheet of bars of parts, the first on top."""
     values = np.nan_to_num(np.asarray(bars.values, dtype=float))
     used = np.flatnonzero(values.any(axis=0)).tolist()
     most = max(1e-9, float(values.sum(axis=1).max(initial=0.0)))
-    frame = _Frame(bars.x, bars.bars, bars.kinds, used, most, looks)
+    frame = _Frame(bars, bars.bars, used, most)
     for index, row in enumerate(values):
         ends = frame.x(np.concatenate([[0.0], np.cumsum(row)])).tolist()
         for kind in used:
@@ -78,11 +77,9 @@ def draw_stacked(bars: StackedBars, looks: Mapping[str, int]) -> Sheet:
 class _Frame:
     """Sheet, axis, names and legend of a number of lanes."""
 
-    def __init__(  # noqa: PLR0917
-        self, axis: Axis, names: Sequence[str], kinds: Sequence[str], used: Sequence[int], most: float,
-        looks: Mapping[str, int],
-    ) -> None:  # fmt: skip
-        shades = [colour(number) for number in numbered(kinds, looks)]
+    def __init__(self, figure: Gantt | StackedBars, names: Sequence[str], used: Sequence[int], most: float) -> None:
+        axis, kinds = figure.x, figure.kinds
+        shades = [colour(number) for number in figure.looks]
         if len({shades[kind] for kind in used}) < len(used):  # other figures have taken colours: here each its own
             shades = [colour(number) for number in range(len(kinds))]
         self._colours = dict(enumerate(shades))

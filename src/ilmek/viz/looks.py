@@ -8,12 +8,26 @@ has, and where bodies leave enough colours, the colour of none.
 import itertools
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.errors import UnitError
-from ilmek.report import Animation, Drawing, Figure, Gantt, Plot, StackedBars, Timing
+from ilmek.report import (
+    Animation,
+    Drawing,
+    Figure,
+    Gantt,
+    Lane,
+    MovingStroke,
+    Plot,
+    Series,
+    StackedBars,
+    Stroke,
+    Timing,
+)
 from ilmek.units import parse_unit
 from ilmek.viz.style import DASHED, DOTTED, PALETTE
 
@@ -34,7 +48,63 @@ MARKERS: Mapping[str, ComplexArray] = {
 RESERVED = 5
 """Largest number of bodies whose colours no other curve takes: of eight colours three are left."""
 
+Item = TypeVar("Item", Series, Stroke, MovingStroke, Lane)
+
 _QUANTITY = re.compile(r"(.*\S)\s+[+−-]?\d[\d.,]*\s?(\S+)")
+
+
+def looked(figures: Iterable[Figure]) -> tuple[Figure, ...]:
+    """Figures that belong together with the look of each label; one that has looks keeps them."""
+    figures = tuple(figures)
+    looks = looks_of(figures)
+    return tuple(figure if _has_looks(figure) else _looked(figure, looks) for figure in figures)
+
+
+def _has_looks(figure: Figure) -> bool:
+    if isinstance(figure, Gantt | StackedBars):
+        return bool(figure.looks)
+    items: tuple[Series | Stroke | MovingStroke | Lane, ...]
+    match figure:
+        case Plot():
+            items = figure.series
+        case Timing():
+            items = figure.lanes
+        case Drawing():
+            items = figure.strokes
+        case Animation():
+            items = (*figure.still.strokes, *figure.strokes)
+    return any(item.look >= 0 for item in items)
+
+
+def _looked(figure: Figure, looks: Mapping[str, int]) -> Figure:
+    match figure:
+        case Plot():
+            numbers = numbered((one.label for one in figure.series), looks)
+            return replace(figure, series=_with_looks(figure.series, numbers))
+        case Timing():
+            numbers = numbered((lane.name for lane in figure.lanes), looks)
+            return replace(figure, lanes=_with_looks(figure.lanes, numbers))
+        case Drawing():
+            return replace(figure, strokes=_with_looks(figure.strokes, _coloured(figure.strokes, looks)))
+        case Animation():
+            still, count = figure.still, len(figure.still.strokes)
+            numbers = _coloured((*still.strokes, *figure.strokes), looks)
+            still = replace(still, strokes=_with_looks(still.strokes, numbers[:count]))
+            return replace(figure, still=still, strokes=_with_looks(figure.strokes, numbers[count:]))
+        case Gantt() | StackedBars():
+            return replace(figure, looks=tuple(numbered(figure.kinds, looks)))
+
+
+def _with_looks(items: Iterable[Item], numbers: Iterable[int]) -> tuple[Item, ...]:
+    return tuple(replace(item, look=number) for item, number in zip(items, numbers, strict=True))
+
+
+def _coloured(strokes: Iterable[Stroke | MovingStroke], looks: Mapping[str, int]) -> list[int]:
+    """The look of each stroke; -1 of those whose role has a colour of its own."""
+    strokes = tuple(strokes)
+    order = [index for role in COLOURED for index, stroke in enumerate(strokes) if stroke.role == role]
+    look = dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
+    return [look.get(index, -1) for index in range(len(strokes))]
 
 
 def looks_of(figures: Iterable[Figure]) -> dict[str, int]:

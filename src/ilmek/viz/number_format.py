@@ -1,6 +1,7 @@
 """Format of numbers and names on a page."""
 
 import math
+from dataclasses import replace
 from typing import TypeGuard
 
 from ilmek.report import Check, Json, Table, in_words, rounded, shown_value
@@ -57,23 +58,26 @@ def cells(table: Table) -> list[list[Cell]]:
     """
     return [
         [Cell(number(v, c.unit, c.digits), isinstance(v, int | float)) for v, c in zip(row, table.columns, strict=True)]
-        for row in quiet_rows(table)
+        for row in quiet(table).rows
     ]
 
 
-def quiet_rows(table: Table) -> list[list[float | int | str]]:
-    """A table's rows; numbers below 1e-9 of the largest in their column are 0.
+def quiet(table: Table) -> Table:
+    """A table in which numbers below 1e-9 of the largest in their column are 0.
 
-    >>> quiet_rows(Table("t", "", (), ((0.1, "a"), (1e-17, "b"))))
-    [[0.1, 'a'], [0.0, 'b']]
+    >>> quiet(Table("t", "", (), ((0.1, "a"), (1e-17, "b")))).rows
+    ((0.1, 'a'), (0.0, 'b'))
     """
     noise = [
         _NOISE * max((abs(v) for v in column if _measured(v)), default=0.0) for column in zip(*table.rows, strict=True)
     ]
-    return [
-        [0.0 if _measured(v) and abs(v) < least else v for v, least in zip(row, noise, strict=True)]
-        for row in table.rows
-    ]
+    return replace(
+        table,
+        rows=tuple(
+            tuple(0.0 if _measured(v) and abs(v) < least else v for v, least in zip(row, noise, strict=True))
+            for row in table.rows
+        ),
+    )
 
 
 def _measured(value: float | int | str) -> TypeGuard[float]:

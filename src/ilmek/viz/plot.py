@@ -1,6 +1,5 @@
 """Curves over one axis."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +11,7 @@ from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
-from ilmek.viz.looks import dashes, marker_shape, numbered
+from ilmek.viz.looks import dashes, marker_shape
 from ilmek.viz.scale import span, tick_labels, ticks
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.style import AXIS, INK, MUTED, PAPER, SMALL, TEXT, colour, in_unit, with_unit
@@ -31,12 +30,11 @@ class _Entry:
     """A legend entry with its row from the top and its left edge [pt]."""
 
     series: Series
-    number: int
     row: int
     left: float
 
 
-def draw_plot(plot: Plot, looks: Mapping[str, int]) -> Sheet:
+def draw_plot(plot: Plot) -> Sheet:
     """The curves with grid, axes with units, legend above the curves and labels of the marks between the two."""
     x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
     y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
@@ -44,8 +42,7 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> Sheet:
         x_span, y_span = _equal_scales(x_span, y_span)
     x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
     left = 26.0 + max((text_width(label, SMALL) for label in tick_labels(y_ticks)), default=0.0)
-    numbers = numbered((one.label for one in plot.series), looks)
-    entries = _legend(plot, numbers, left)
+    entries = _legend(plot, left)
     tiers = _tiers(plot.marks, x_span, plot.x.unit, WIDTH - left - _RIGHT)
     rows = 1 + max((entry.row for entry in entries), default=-1)
     top = 6.0 + _ROW * rows + _TIER * (1 + max(tiers, default=-1)) + (4.0 if tiers else 0.0)
@@ -59,7 +56,7 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> Sheet:
     left_axis(sheet, box, at_y, y_ticks, with_unit(plot.y.label, plot.y.unit))
     if y_span[0] < 0 < y_span[1]:
         sheet.line(1j * scales.y(0.0) + np.array([box.left, box.right]), color=AXIS, linewidth=0.8, zorder=1.5)
-    _draw_curves(sheet, scales, plot, numbers)
+    _draw_curves(sheet, scales, plot)
     _draw_marks(sheet, box, scales, plot, tiers)
     _draw_legend(sheet, entries)
     return sheet
@@ -70,16 +67,16 @@ def _unique(plot: Plot) -> bool:
     return any(len(one.x) > 0 and bool(np.all(np.diff(one.x) >= 0)) for one in plot.series)
 
 
-def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]) -> None:
+def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot) -> None:
     """The curves; where there are several, each has markers, staggered so that they stand apart."""
     several = len(plot.series) > 1
-    for index, (one, number) in enumerate(zip(plot.series, numbers, strict=True)):
+    for index, one in enumerate(plot.series):
         x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
         points = thinned_line(scales.x(x) + 1j * scales.y(y))
-        sheet.line(points, zorder=3, **_line(one, number))
+        sheet.line(points, zorder=3, **_line(one))
         if several:
             for at in _spread(points, scales.box, (index + 0.5) / len(plot.series)):
-                _mark(sheet, at, number)
+                _mark(sheet, at, one.look)
 
 
 def _mark(sheet: Sheet, at: complex, number: int) -> None:
@@ -134,22 +131,22 @@ def _padded(low: float, high: float) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _line(series: Series, number: int) -> JsonObject:
+def _line(series: Series) -> JsonObject:
     """Style of a curve."""
-    return {"color": colour(number), "linewidth": 1.5, "dashes": dashes(number, dashed=series.dashed)}
+    return {"color": colour(series.look), "linewidth": 1.5, "dashes": dashes(series.look, dashed=series.dashed)}
 
 
-def _legend(plot: Plot, numbers: list[int], left: float) -> list[_Entry]:
+def _legend(plot: Plot, left: float) -> list[_Entry]:
     """Entries in rows above the curves; none if the axis names the only curve."""
     if len(plot.series) == 1 and plot.series[0].label in ("", plot.y.label, plot.title):
         return []
     entries: list[_Entry] = []
     row, at = 0, left
-    for number, series in zip(numbers, plot.series, strict=True):
+    for series in plot.series:
         width = _KEY + 4.0 + text_width(series.label, TEXT) + 12.0
         if at > left and at + width > WIDTH:
             row, at = row + 1, left
-        entries.append(_Entry(series, number, row, at))
+        entries.append(_Entry(series, row, at))
         at += width
     return entries
 
@@ -157,9 +154,9 @@ def _legend(plot: Plot, numbers: list[int], left: float) -> list[_Entry]:
 def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
     for entry in entries:
         at = complex(entry.left, sheet.height - 4.0 - _ROW * (entry.row + 0.5))
-        sheet.line(np.array([at, at + _KEY]), **_line(entry.series, entry.number))
+        sheet.line(np.array([at, at + _KEY]), **_line(entry.series))
         if len(entries) > 1:
-            _mark(sheet, at + _KEY / 2, entry.number)
+            _mark(sheet, at + _KEY / 2, entry.series.look)
         sheet.text(at + _KEY + 4.0, entry.series.label, fontsize=TEXT, va="center_baseline")
 
 

@@ -1,17 +1,17 @@
 """The parts of a page that come from a machine's report: its figures as SVG, its checks, the verdict."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import msgspec
 from markupsafe import Markup
 
+from ilmek.records import json_value
 from ilmek.report import Animation, Check, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
-from ilmek.sentences import translated
 from ilmek.viz.embedded import compressed
-from ilmek.viz.looks import looks_of
-from ilmek.viz.plain.figures import shown_figure
+from ilmek.viz.looks import looked
+from ilmek.viz.plain import shown_figures
 from ilmek.viz.svg import svg
 
 
@@ -96,8 +96,7 @@ class MachineCheck:
 
 def section(index: int, report: Report, left_out: list[str]) -> PageSection:
     """The part of a report; a warning is added to `left_out` for each figure that cannot be drawn."""
-    looks = looks_of(report.figures)
-    figures = [drawn(figure, left_out, looks) for figure in report.figures]
+    figures = [drawn(figure, left_out) for figure in looked(report.figures)]
     moving = []
     for name in dict.fromkeys(one.figure.drive.label for one in figures if isinstance(one.figure, Animation)):
         stage = tuple(one for one in figures if isinstance(one.figure, Animation) and one.figure.drive.label == name)
@@ -108,18 +107,13 @@ def section(index: int, report: Report, left_out: list[str]) -> PageSection:
     return PageSection(f"m{index}", report, tuple(moving), tuple(figures))
 
 
-def drawn(figure: Figure, left_out: list[str], looks: Mapping[str, int] | None = None) -> Drawn:
-    """A figure, or where it cannot be drawn the reason in its place.
-
-    looks  of the labels of the page; default: those of this figure alone
-    """
-    looks = looks_of((figure,)) if looks is None else looks
-    made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure, looks), left_out)
+def drawn(figure: Figure, left_out: list[str]) -> Drawn:
+    """A figure, or where it cannot be drawn the reason in its place."""
+    made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure), left_out)
     if made is None:
         return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]))
-    return Drawn(
-        figure, Markup(made), compressed(msgspec.json.encode(shown_figure(figure, looks), enc_hook=translated))
-    )
+    (shown,) = shown_figures((figure,))
+    return Drawn(figure, Markup(made), compressed(msgspec.json.encode(shown, enc_hook=json_value)))
 
 
 def judged(own: Sequence[Check], reports: Iterable[Report]) -> list[MachineCheck]:

@@ -23,12 +23,11 @@ PITCH = (6.0, 1.7, 1.3, 1.7)
 
 @record
 class Pen:
-    """A sheet, the map from points of the machine [m] to the sheet [pt], and the looks of strokes."""
+    """A sheet and the map from points of the machine [m] to the sheet [pt]."""
 
     sheet: Sheet
     scale: float
     origin: complex
-    numbers: Mapping[int, int]
     unit: str
     shown: dict[Stroke, ComplexArray] = field(default_factory=dict)
 
@@ -63,22 +62,22 @@ def _fill(pen: Pen, stroke: Stroke, shade: str, order: float) -> None:
     pen.sheet.area(area, facecolor=shade, linewidth=0, zorder=order)
 
 
-def _outline(pen: Pen, stroke: Stroke, _: int) -> None:
+def _outline(pen: Pen, stroke: Stroke) -> None:
     if stroke.filled:
         _fill(pen, stroke, "#eef1f4", 1.8)
     _line(pen, stroke, color=INK, linewidth=1.4, zorder=3)
 
 
-def _link(pen: Pen, stroke: Stroke, number: int) -> None:
+def _link(pen: Pen, stroke: Stroke) -> None:
     """A bar: a wide pale line with edges in the full colour."""
-    shade = colour(pen.numbers[number])
+    shade = colour(stroke.look)
     if stroke.filled:
         _fill(pen, stroke, tint(shade, 0.3), 3.8)
     _line(pen, stroke, color=shade, linewidth=7.0, zorder=4)
     _line(pen, stroke, color=tint(shade, 0.45), linewidth=4.8, zorder=4.1)
 
 
-def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
+def _ground(pen: Pen, stroke: Stroke) -> None:
     """A grey line with hatches on the right of its direction."""
     points = _line(pen, stroke, color=STEEL, linewidth=1.4, zorder=2.5)
     if stroke.filled:
@@ -86,7 +85,7 @@ def _ground(pen: Pen, stroke: Stroke, _: int) -> None:
     _hatch(pen.sheet, points, 5.5)
 
 
-def _guide(pen: Pen, stroke: Stroke, _: int) -> None:
+def _guide(pen: Pen, stroke: Stroke) -> None:
     """The hatched guide of a slider, on the right of its direction and clear of the block."""
     points = pen(stroke.points)
     direction = (points[-1] - points[0]) / (abs(points[-1] - points[0]) or 1.0)
@@ -108,21 +107,21 @@ def _hatch(sheet: Sheet, points: ComplexArray, length: float) -> None:
     sheet.lines(starts, ends, color=STEEL, linewidth=0.7, zorder=2.4)
 
 
-def _path(pen: Pen, stroke: Stroke, number: int) -> None:
-    _line(pen, stroke, color=colour(pen.numbers[number]), linewidth=1.1, zorder=3.2)
+def _path(pen: Pen, stroke: Stroke) -> None:
+    _line(pen, stroke, color=colour(stroke.look), linewidth=1.1, zorder=3.2)
 
 
-def _construction(pen: Pen, stroke: Stroke, _: int) -> None:
+def _construction(pen: Pen, stroke: Stroke) -> None:
     _line(pen, stroke, color=STEEL, linewidth=0.7, dashes=(4, 2.5), zorder=2)
 
 
-def _yarn(pen: Pen, stroke: Stroke, _: int) -> None:
+def _yarn(pen: Pen, stroke: Stroke) -> None:
     if stroke.filled:
         _fill(pen, stroke, tint(YARN, 0.25), 2.0)
     _line(pen, stroke, color=YARN, linewidth=2.0, zorder=3.5)
 
 
-def _dimension(pen: Pen, stroke: Stroke, _: int) -> None:
+def _dimension(pen: Pen, stroke: Stroke) -> None:
     """A thin line with an arrow at both ends and its text on the line."""
     points = _line(pen, stroke, color=MUTED, linewidth=0.7, zorder=5)
     if len(points) < 2:
@@ -165,9 +164,9 @@ def _middle(points: ComplexArray) -> tuple[complex, complex]:
     )
 
 
-def _wheel(pen: Pen, stroke: Stroke, number: int) -> None:
+def _wheel(pen: Pen, stroke: Stroke) -> None:
     """The pitch circle of a wheel, with a radius that shows its turn."""
-    shade = colour(pen.numbers[number])
+    shade = colour(stroke.look)
     points = _line(pen, stroke, color=shade, linewidth=1.2, dashes=PITCH, zorder=3.8)
     pen.sheet.area(points, facecolor=tint(shade, 0.1), linewidth=0, zorder=1.7)
 
@@ -196,7 +195,7 @@ def _block(pen: Pen, at: complex, along: complex) -> None:
     pen.sheet.area(corners, facecolor=GRID, edgecolor=STEEL, linewidth=1.2, zorder=6.5)
 
 
-STROKES: Mapping[str, Callable[[Pen, Stroke, int], None]] = {
+STROKES: Mapping[str, Callable[[Pen, Stroke], None]] = {
     "outline": _outline,
     "link": _link,
     "ground": _ground,

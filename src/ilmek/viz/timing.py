@@ -5,8 +5,6 @@ below; a dwell is flat. Events are ticks with names above the curve. Intervals i
 shaded; arrows show the required order of events. The lower axis is the angle, the upper one the time.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ilmek.records import JsonObject
@@ -15,7 +13,6 @@ from ilmek.units import deg
 from ilmek.viz.flags import Flag, flags
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
-from ilmek.viz.looks import numbered
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet, circle
 from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, tint
@@ -31,7 +28,7 @@ _BAD, _SHADE = "#c0392b", "#8a94a0"
 _TURN = 360.0
 
 
-def draw_timing(timing: Timing, looks: Mapping[str, int]) -> Sheet:
+def draw_timing(timing: Timing) -> Sheet:
     """The sheet with the stacked tracks, the first on top."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
@@ -44,14 +41,13 @@ def draw_timing(timing: Timing, looks: Mapping[str, int]) -> Sheet:
     paper(sheet, box)
     _axes(sheet, box, timing)
     ceiling, floors = box.top - 1.0, []
-    numbers = numbered((lane.name for lane in timing.lanes), looks)
-    for number, lane, lane_flags, height in zip(numbers, timing.lanes, flown, heights, strict=True):
+    for lane, lane_flags, height in zip(timing.lanes, flown, heights, strict=True):
         ceiling -= height
         floor = complex(left, ceiling + _GAP / 2 + (_LAW if lane.moves else 0.0))
         floors.append(floor)
         for shade in lane.shades:
             _shade(sheet, lane, shade, floor, box.width)
-        _motion(sheet, lane, floor, box.width, colour(number))
+        _motion(sheet, lane, floor, box.width, colour(lane.look))
         _events(sheet, lane, lane_flags, floor)
         _name(sheet, lane, floor + 1j * _STROKE / 2)
         if lane is not timing.lanes[-1]:

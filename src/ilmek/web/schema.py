@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, get_type_hints
 
 import msgspec
+import numpy as np
 
 from ilmek.jobs.studio.answers import Binary
 from ilmek.records import JsonObject
@@ -31,7 +32,7 @@ def messages(endpoints: Iterable[Endpoint] = ENDPOINTS) -> JsonObject:
     }
 
 
-def _draft_7(schema: Any) -> Any:
+def _draft_7(schema: object) -> Any:
     """A schema with the tuples of draft 7, `items` as a list, as the generator of types reads them."""
     if isinstance(schema, list):
         return [_draft_7(one) for one in schema]
@@ -64,7 +65,7 @@ def record_schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict
     answers = [answer_type(endpoint) for endpoint in endpoints]
     answers += [kind for endpoint in endpoints for kind in _further(endpoint)]
     kinds = list(dict.fromkeys(kind for kind in (*requests, *answers) if kind is not Binary))
-    found, components = msgspec.json.schema_components(kinds, schema_hook=_any, ref_template=template)
+    found, components = msgspec.json.schema_components(kinds, schema_hook=_custom, ref_template=template)
     schemas = dict(zip(kinds, found, strict=True)) | {Binary: {}}
     doubled = sorted(name for name in components if not name.isidentifier())
     if doubled:
@@ -75,14 +76,18 @@ def record_schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict
     return schemas, dict(sorted(components.items()))
 
 
-def _any(kind: type) -> JsonObject:
-    """The schema of `object`: any JSON."""
-    if kind is not object:
-        raise TypeError(f"{kind} in a record of the API")
-    return {"description": "any JSON"}
+def _custom(kind: type) -> JsonObject:
+    """The schema of what `json_value` encodes, and of `object`: any JSON."""
+    if kind is object:
+        return {"description": "any JSON"}
+    if kind is complex:
+        return {"type": "array", "prefixItems": [{"type": "number"}] * 2, "minItems": 2, "maxItems": 2}
+    if getattr(kind, "array_type", kind) is np.ndarray:  # as jaxtyping declares it, where that is loaded
+        return {"type": "array", "items": {"type": ["number", "null"]}}
+    raise TypeError(f"{kind} in a record of the API")
 
 
-def _reached(schemas: Iterable[Any], components: JsonObject) -> set[str]:
+def _reached(schemas: Iterable[object], components: JsonObject) -> set[str]:
     """The names of the records that schemas refer to, directly or not."""
     names: set[str] = set()
     waiting = list(schemas)

@@ -25,9 +25,10 @@ from typing import Any, BinaryIO, NoReturn, get_type_hints
 import msgspec
 
 from ilmek.errors import IlmekError
-from ilmek.jobs.studio.answers import Binary, Context, text_of
+from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.words import in_page
 from ilmek.progress import Cancelled, Progress
+from ilmek.records import json_value
 from ilmek.sentences import in_language
 from ilmek.web.framing import (
     JSON,
@@ -208,12 +209,7 @@ def end() -> NoReturn:
 
 def encoded_json(value: object) -> bytes:
     """JSON of records, mappings, lists and arrays; numbers that are not finite are null."""
-    return msgspec.json.encode(value, enc_hook=_plain)
-
-
-def _plain(value: Any) -> object:
-    """The data of an array or a number of numpy, the text of a sentence. Raises TypeError for anything else."""
-    return value.tolist() if hasattr(value, "tolist") else text_of(value)
+    return msgspec.json.encode(value, enc_hook=json_value)
 
 
 def limit_memory(most: int) -> None:

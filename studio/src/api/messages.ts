@@ -50,6 +50,16 @@ export interface AssignedColour {
   merged_with: string[];
 }
 /**
+ * A plot's axis: label, and the unit its SI data are shown in.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Axis".
+ */
+export interface Axis {
+  label: string;
+  unit: string;
+}
+/**
  * A body: its points in its own frame [m], by name, and whether it is located by the groups found so far.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -293,6 +303,17 @@ export interface CircuitAnswer {
   crossings: number[];
   closed: boolean;
   current: boolean;
+}
+/**
+ * A table's column: heading and the unit its SI numbers are shown in ("" for text and plain numbers).
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Column".
+ */
+export interface Column {
+  heading: string;
+  unit: string;
+  digits: number;
 }
 /**
  * A state that is shown as its command line and as Python.
@@ -700,6 +721,29 @@ export interface ForceValue {
   set: boolean;
 }
 /**
+ * A named point of a drawing [m].
+ *
+ *     role   pin (moving joint), pivot (joint on the ground), point, block (a slider)
+ *     along  direction of the guide of a block
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Dot".
+ */
+export interface Dot {
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  at: [number, number];
+  label: string;
+  role: string;
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  along: [number, number];
+}
+/**
  * A joint of the file and its new position [m].
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -709,6 +753,37 @@ export interface DraggedJoint {
   joint: string;
   x: number;
   y: number;
+}
+/**
+ * A drawing to scale: strokes and dots [m], shown in `unit`.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Drawing".
+ */
+export interface Drawing {
+  name: string;
+  title: string;
+  strokes: Stroke[];
+  dots: Dot[];
+  unit: string;
+  note: string;
+}
+/**
+ * A polyline of a drawing [m]. Its role sets how it is drawn.
+ *
+ *     role  outline (thick), link (thick, coloured), ground (hatched grey), guide (hatched beside a slider), path (thin,
+ *           coloured), construction (thin dashed), dimension (thin with arrows at both ends), yarn
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Stroke".
+ */
+export interface Stroke {
+  points: (number | null)[];
+  role: string;
+  label: string;
+  closed: boolean;
+  filled: boolean;
+  look: number;
 }
 /**
  * What a parameter does to a check.
@@ -886,6 +961,37 @@ export interface FourBarRequest {
   };
 }
 /**
+ * What lanes are busy with over time, in spans.
+ *
+ *     kinds  names of the kinds of spans; those that no lane has are left out of the legend
+ *     pale   number of kinds, the first ones, that are drawn pale: what is usual
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Gantt".
+ */
+export interface Gantt {
+  name: string;
+  title: string;
+  x: Axis;
+  lanes: GanttLane[];
+  kinds: string[];
+  note: string;
+  pale: number;
+  looks: number[];
+}
+/**
+ * A lane of a Gantt chart: spans of time, in order of their begin, each of a kind (a number, see `Gantt`).
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "GanttLane".
+ */
+export interface GanttLane {
+  name: string;
+  starts: (number | null)[];
+  ends: (number | null)[];
+  kinds: (number | null)[];
+}
+/**
  * A function as a four-bar generates it: rotation of the rocker required and generated, and the error [rad].
  *
  *     extremes  x of the extremes of the error      drawn_at  x of the four-bar as drawn
@@ -955,6 +1061,66 @@ export interface JointAnswer {
   bodies: [string, string];
   along: number;
   turned: number;
+}
+/**
+ * One track of a cyclogram: position of an actuator over the master angle.
+ *
+ *     angle     master angle [rad], ascending from 0 to 2 pi     position  0 to 1 of the stroke
+ *     events    named master angles [rad]
+ *     moves     its motions, where they are known, in order, and the `unit` their positions are shown in
+ *     motion    position [SI], velocity and acceleration [SI, s] at the angles; empty where they are not known
+ *     shades    windows to be shaded
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Lane".
+ */
+export interface Lane {
+  name: string;
+  actuator: string;
+  angle: (number | null)[];
+  position: (number | null)[];
+  events: Mark[];
+  moves: Move[];
+  unit: string;
+  shades: Shade[];
+  motion: (number | null)[][];
+  look: number;
+}
+/**
+ * A named abscissa: a vertical line in a plot.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Mark".
+ */
+export interface Mark {
+  x: number;
+  label: string;
+}
+/**
+ * A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Move".
+ */
+export interface Move {
+  name: string;
+  start: number;
+  end: number;
+  begin: number;
+  finish: number;
+  law: string;
+}
+/**
+ * A window of a lane: master angles [rad], what it is, and whether it is one that must not be.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Shade".
+ */
+export interface Shade {
+  start: number;
+  end: number;
+  label: string;
+  bad: boolean;
 }
 /**
  * The least transmission angle at a pin [rad], and the value of the input there [rad; m].
@@ -1126,118 +1292,55 @@ export interface MachineFigures {
  * via the `definition` "ShownFigure".
  */
 export interface ShownFigure {
+  plot: Plot | null;
+  drawing: Drawing | null;
+  animation: ShownAnimation | null;
+  timing: Timing | null;
+  gantt: Gantt | null;
+  bars: StackedBars | null;
+}
+/**
+ * Curves over one axis; plots, animations and cyclograms over a quantity of the same label share a cursor.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Plot".
+ */
+export interface Plot {
   name: string;
   title: string;
-  note: string;
-  plot: ShownPlot | null;
-  drawing: ShownDrawing | null;
-  animation: ShownAnimation | null;
-  timing: ShownTiming | null;
-  gantt: ShownGantt | null;
-  bars: ShownBars | null;
-}
-/**
- * Curves over one axis; figures over a quantity of the same label share a cursor.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownPlot".
- */
-export interface ShownPlot {
-  x: ShownAxis;
-  y: ShownAxis;
-  curves: ShownCurve[];
+  x: Axis;
+  y: Axis;
+  series: Series[];
   marks: Mark[];
+  note: string;
 }
 /**
- * An axis: label, and the unit its SI data are shown in.
+ * A curve: SI abscissae and ordinates of one length.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownAxis".
+ * via the `definition` "Series".
  */
-export interface ShownAxis {
+export interface Series {
   label: string;
-  shown_unit: string;
-}
-/**
- * A curve of a plot.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownCurve".
- */
-export interface ShownCurve {
-  label: string;
-  look: number;
-  dashed: boolean;
   x: (number | null)[];
   y: (number | null)[];
-}
-/**
- * A named abscissa: a vertical line in a plot.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "Mark".
- */
-export interface Mark {
-  x: number;
-  label: string;
-}
-/**
- * A drawing to scale.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownDrawing".
- */
-export interface ShownDrawing {
-  strokes: ShownStroke[];
-  dots: ShownDot[];
-  shown_unit: string;
-}
-/**
- * A polyline of a drawing [m]; `role` sets how it is drawn. look: -1 where its role has a colour of its own.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownStroke".
- */
-export interface ShownStroke {
-  points: (number | null)[];
-  role: string;
-  label: string;
-  closed: boolean;
-  filled: boolean;
+  dashed: boolean;
   look: number;
 }
 /**
- * A named point [m]; role: pin, pivot or point.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownDot".
- */
-export interface ShownDot {
-  /**
-   * @minItems 2
-   * @maxItems 2
-   */
-  at: [number, number];
-  label: string;
-  role: string;
-}
-/**
- * A machine in motion: what stands still, and what moves over the frames.
- *
- *     tracks  of points, x, y, x, y, … over the frames [m]      at      value of the drive at the frames [SI]
- *     closes  the frame after the last is the first             period  of the real machine [s]; null: none
+ * A machine in motion as in the report; tracks: positions of points over the frames [m].
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownAnimation".
  */
 export interface ShownAnimation {
-  still: ShownDrawing;
-  drive: ShownAxis;
+  still: Drawing;
+  drive: Axis;
   at: (number | null)[];
   tracks: (number | null)[][];
   shapes: MovingShape[];
   points: MovingPoint[];
-  readings: ShownReading[];
+  readings: Reading[];
   closes: boolean;
   start: number;
   period: number | null;
@@ -1271,111 +1374,49 @@ export interface MovingPoint {
   role: string;
 }
 /**
- * A number over the frames [SI], shown in a unit.
+ * A number shown beside a machine that moves: its SI values at the frames, shown in `unit`.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownReading".
+ * via the `definition` "Reading".
  */
-export interface ShownReading {
+export interface Reading {
   label: string;
-  shown_unit: string;
   values: (number | null)[];
+  unit: string;
 }
 /**
- * A cyclogram over one turn of the master shaft, which takes `period` [s].
+ * A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
+ *
+ *     links  between instants of the lanes
+ *     drive  the angle of a turn: figures over a drive of the same name share a cursor
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownTiming".
+ * via the `definition` "Timing".
  */
-export interface ShownTiming {
-  drive: ShownAxis;
+export interface Timing {
+  name: string;
+  title: string;
   period: number;
-  lanes: ShownLane[];
+  lanes: Lane[];
+  note: string;
   links: Link[];
+  drive: Axis;
 }
 /**
- * A track of a cyclogram: position 0 to 1 over the master angle [rad].
- *
- *     motion  position [SI], velocity and acceleration [SI, s] at the angles; empty where they are not known
+ * Horizontal bars, each of parts side by side, one for each kind; SI values by kind of each bar.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownLane".
+ * via the `definition` "StackedBars".
  */
-export interface ShownLane {
+export interface StackedBars {
   name: string;
-  actuator: string;
-  shown_unit: string;
-  look: number;
-  angle: (number | null)[];
-  position: (number | null)[];
-  events: Mark[];
-  moves: Move[];
-  shades: Shade[];
-  motion: (number | null)[][];
-}
-/**
- * A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "Move".
- */
-export interface Move {
-  name: string;
-  start: number;
-  end: number;
-  begin: number;
-  finish: number;
-  law: string;
-}
-/**
- * A window of a lane: master angles [rad], what it is, and whether it is one that must not be.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "Shade".
- */
-export interface Shade {
-  start: number;
-  end: number;
-  label: string;
-  bad: boolean;
-}
-/**
- * What lanes are busy with over time; the first `pale` kinds are drawn pale.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownGantt".
- */
-export interface ShownGantt {
-  x: ShownAxis;
-  lanes: ShownSpans[];
-  kinds: string[];
-  looks: number[];
-  pale: number;
-}
-/**
- * A lane of a Gantt chart: spans of time [s] and the number of the kind of each.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownSpans".
- */
-export interface ShownSpans {
-  name: string;
-  starts: (number | null)[];
-  ends: (number | null)[];
-  kinds: number[];
-}
-/**
- * Horizontal bars, each of parts side by side; values [SI] of each bar by kind.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownBars".
- */
-export interface ShownBars {
-  x: ShownAxis;
+  title: string;
+  x: Axis;
   bars: string[];
   kinds: string[];
-  looks: number[];
   values: (number | null)[][];
+  note: string;
+  looks: number[];
 }
 /**
  * A figure that the machine has; kind: plot, drawing, animation, timing, gantt or bars.
@@ -1433,30 +1474,22 @@ export interface MachineName {
  * via the `definition` "MachineTables".
  */
 export interface MachineTables {
-  tables: ShownTable[];
+  tables: Table[];
 }
 /**
- * Rows of SI numbers and texts.
+ * Rows of SI numbers and texts under columns.
+ *
+ *     brief  True: short, and worth being shown on a terminal too
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownTable".
+ * via the `definition` "Table".
  */
-export interface ShownTable {
+export interface Table {
   name: string;
   title: string;
-  columns: ShownColumn[];
-  rows: (number | string | null)[][];
-}
-/**
- * A column: heading, the unit its SI numbers are shown in, and their significant digits.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownColumn".
- */
-export interface ShownColumn {
-  heading: string;
-  shown_unit: string;
-  digits: number;
+  columns: Column[];
+  rows: (number | string)[][];
+  brief: boolean;
 }
 /**
  * A mechanism as drawn.

@@ -70,8 +70,15 @@ describe("the shared cursor", () => {
 });
 
 const CRANK: ShownAnimation = {
-  still: { strokes: [], dots: [{ at: [0, 0], label: "A", role: "pivot" }], shown_unit: "mm" },
-  drive: { label: "crank angle", shown_unit: "deg" },
+  still: {
+    name: "",
+    title: "",
+    note: "",
+    strokes: [],
+    dots: [{ at: [0, 0], label: "A", role: "pivot", along: [1, 0] }],
+    unit: "mm",
+  },
+  drive: { label: "crank angle", unit: "deg" },
   at: [0, 90 * DEGREE, 180 * DEGREE, 270 * DEGREE],
   tracks: [
     [0, 0, 0, 0, 0, 0, 0, 0],
@@ -79,7 +86,7 @@ const CRANK: ShownAnimation = {
   ],
   shapes: [{ tracks: [0, 1], shape: [], role: "link", label: "crank", closed: false, look: 0 }],
   points: [],
-  readings: [{ label: "height", shown_unit: "m", values: [0, 1, 0, -1] }],
+  readings: [{ label: "height", unit: "m", values: [0, 1, 0, -1] }],
   closes: true,
   start: 0,
   period: null,

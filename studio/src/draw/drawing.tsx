@@ -25,7 +25,7 @@ export function Drawing({ drawing, title, height = 300, extent }: DrawingProps) 
       const map = mapOf(box, view.peek(), width, high);
       paintDrawing(context, drawing, map);
       paintNames(context, namesOf(drawing, map), width, high - 18);
-      paintScaleBar(context, map, parseUnit(drawing.shown_unit)?.factor ?? 1, drawing.shown_unit, width, high);
+      paintScaleBar(context, map, parseUnit(drawing.unit)?.factor ?? 1, drawing.unit, width, high);
     },
     [drawing, box],
     [view],

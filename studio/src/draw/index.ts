@@ -5,7 +5,7 @@ import "./draw.css";
 export { CheckList, type CheckShown } from "./checks";
 export { CursorContext, type Cursors, cursorOf, moveTo, useCursor } from "./cursor";
 export { Drawing } from "./drawing";
-export type * from "./figures";
+export * from "./figures";
 export { colourOf, colours, cssColour } from "./looks";
 export { Player } from "./player";
 export { Plot } from "./plot";

@@ -38,7 +38,7 @@ export function Player({ animation, ghost, title, height = 320, extent, autoplay
     return box;
   }, [animation, ghost, extent]);
   const view = useSignal<View>(WHOLE);
-  const angle = isAngle(animation.drive.shown_unit);
+  const angle = isAngle(animation.drive.unit);
   const start = animation.at[animation.start] ?? range.low;
   const inside = () =>
     within(cursor.at.value ?? start, range.low, range.high, angle) ?? clamp(cursor.at.value ?? start, range);
@@ -46,14 +46,7 @@ export function Player({ animation, ghost, title, height = 320, extent, autoplay
     (context, width, high) => {
       const map = mapOf(box, view.peek(), width, high);
       paintDrawing(context, { ...animation.still, dots: [] }, map);
-      paintScaleBar(
-        context,
-        map,
-        parseUnit(animation.still.shown_unit)?.factor ?? 1,
-        animation.still.shown_unit,
-        width,
-        high,
-      );
+      paintScaleBar(context, map, parseUnit(animation.still.unit)?.factor ?? 1, animation.still.unit, width, high);
     },
     [animation, box],
     [view],
@@ -131,11 +124,11 @@ function Controls({ animation, cursor, range, at, autoplay }: ControlsProps) {
         value={at}
         min={range.low}
         max={range.high}
-        step={keyStep(range.low, range.high, animation.drive.shown_unit) / 4}
-        text={formatQuantity(at, animation.drive.shown_unit)}
+        step={keyStep(range.low, range.high, animation.drive.unit) / 4}
+        text={formatQuantity(at, animation.drive.unit)}
         onInput={(to) => moveTo(cursor, to)}
       />
-      <output>{formatQuantity(at, animation.drive.shown_unit)}</output>
+      <output>{formatQuantity(at, animation.drive.unit)}</output>
       <select
         class="ui-input"
         aria-label={t("figure.speed")}
@@ -188,7 +181,7 @@ function Readings({ animation, at }: { animation: ShownAnimation; at: number }) 
           <dd>
             {formatQuantity(
               quiet(between(reading.values, frame, animation.at.length, 1, 0), greatestOf([reading.values])),
-              reading.shown_unit,
+              reading.unit,
             )}
           </dd>
         </div>

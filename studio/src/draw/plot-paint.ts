@@ -27,11 +27,11 @@ export interface Ranges {
 
 /** The ranges of a plot's data [SI]. */
 export function rangesOf(plot: ShownPlot): Ranges {
-  const x = spanOf(plot.curves.map((curve) => curve.x));
+  const x = spanOf(plot.series.map((curve) => curve.x));
   const marks = plot.marks.filter((mark) => mark.x >= x.low && mark.x <= x.high).map((mark) => mark.x);
   return {
     x: widened({ low: Math.min(x.low, ...marks), high: Math.max(x.high, ...marks) }),
-    y: spanOf(plot.curves.map((curve) => curve.y)),
+    y: spanOf(plot.series.map((curve) => curve.y)),
   };
 }
 
@@ -39,7 +39,7 @@ export function rangesOf(plot: ShownPlot): Ranges {
 function equalScales(plot: ShownPlot, ranges: Ranges, room: number): Ranges {
   const rising = (x: Numbers) => x.every((value, k) => k === 0 || (value ?? 0) >= (x[k - 1] ?? 0));
   const { x, y } = ranges;
-  if (plot.x.shown_unit !== plot.y.shown_unit || plot.curves.some((curve) => rising(curve.x))) return ranges;
+  if (plot.x.unit !== plot.y.unit || plot.series.some((curve) => rising(curve.x))) return ranges;
   const [wide, high] = [x.high - x.low, y.high - y.low];
   const [moreX, moreY] = [Math.max(high * room - wide, 0) / 2, Math.max(wide / room - high, 0) / 2];
   return { x: { low: x.low - moreX, high: x.high + moreX }, y: { low: y.low - moreY, high: y.high + moreY } };
@@ -54,13 +54,13 @@ export function paintPlot(
   height: number,
 ): Layout {
   const ranges = equalScales(plot, given, (width - 60) / (height - 40));
-  const [fx, fy] = [parseUnit(plot.x.shown_unit)?.factor ?? 1, parseUnit(plot.y.shown_unit)?.factor ?? 1];
+  const [fx, fy] = [parseUnit(plot.x.unit)?.factor ?? 1, parseUnit(plot.y.unit)?.factor ?? 1];
   const top = plot.marks.length > 0 ? 22 : 8;
   const bottom = height - 20;
   const count = Math.max(2, Math.min(7, Math.round((bottom - top) / PIXELS_PER_TICK.y)));
   const inUnit = { low: ranges.y.low / fy, high: ranges.y.high / fy };
-  const room = roomy(inUnit, plot.y.shown_unit, count);
-  const rows = ticks(room, plot.y.shown_unit, count);
+  const room = roomy(inUnit, plot.y.unit, count);
+  const rows = ticks(room, plot.y.unit, count);
   const names = tickLabels(rows);
   context.font = SMALL;
   const left = Math.ceil(Math.max(...names.map((name) => context.measureText(name).width), 18)) + 10;
@@ -72,7 +72,7 @@ export function paintPlot(
   context.beginPath();
   context.rect(left - 1, top - 2, right - left + 2, bottom - top + 4);
   context.clip();
-  for (const curve of plot.curves) {
+  for (const curve of plot.series) {
     context.strokeStyle = colourOf(curve.look);
     context.lineWidth = 1.8;
     context.setLineDash(dashesOf(curve.look, curve.dashed).map((length) => 1.8 * length));
@@ -80,8 +80,8 @@ export function paintPlot(
   }
   context.setLineDash([]);
   context.restore();
-  if (plot.curves.length > 1) {
-    for (const [number, curve] of plot.curves.entries()) {
+  if (plot.series.length > 1) {
+    for (const [number, curve] of plot.series.entries()) {
       paintMarkers(context, layout, curve.x, curve.y, curve.look, number);
     }
   }
@@ -101,7 +101,7 @@ function paintAxes(
   const shades = colours();
   const columns = ticks(
     { low: layout.x.low / fx, high: layout.x.high / fx },
-    plot.x.shown_unit,
+    plot.x.unit,
     Math.max(2, (right - left) / PIXELS_PER_TICK.x),
   );
   context.lineWidth = 1;
@@ -223,7 +223,7 @@ export function paintCursor(context: CanvasRenderingContext2D, plot: ShownPlot, 
   context.moveTo(x, layout.top - 3);
   context.lineTo(x, layout.bottom + 3);
   context.stroke();
-  for (const curve of plot.curves) {
+  for (const curve of plot.series) {
     const value = valueAt(curve.x, curve.y, at);
     if (value === null) continue;
     context.beginPath();

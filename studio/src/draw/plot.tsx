@@ -28,8 +28,8 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     },
     [plot, shown],
   );
-  const angle = isAngle(plot.x.shown_unit);
-  const whole = useMemo(() => plot.curves.every((curve) => curve.x.every((x) => Number.isInteger(x))), [plot]);
+  const angle = isAngle(plot.x.unit);
+  const whole = useMemo(() => plot.series.every((curve) => curve.x.every((x) => Number.isInteger(x))), [plot]);
   const inside = (value: number | null) => (value === null ? null : within(value, shown.x.low, shown.x.high, angle));
   const over = useCanvas(
     (context, width, high) => {
@@ -48,19 +48,19 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     moveTo(cursor, whole ? Math.round(to) : to);
   };
   const at = inside(cursor.at.value);
-  const reading = at === null ? "" : formatQuantity(at, plot.x.shown_unit);
-  const greatest = useMemo(() => greatestOf(plot.curves.map((curve) => curve.y)), [plot]);
-  const values = plot.curves.map((curve) => {
+  const reading = at === null ? "" : formatQuantity(at, plot.x.unit);
+  const greatest = useMemo(() => greatestOf(plot.series.map((curve) => curve.y)), [plot]);
+  const values = plot.series.map((curve) => {
     const value = at === null ? null : valueAt(curve.x, curve.y, at);
     return value === null ? null : quiet(value, greatest);
   });
-  const spoken = plot.curves.map(
-    (curve, k) => `${curve.label} ${shownValue(values[k] ?? null, plot.y.shown_unit)} ${shownUnit(plot.y.shown_unit)}`,
+  const spoken = plot.series.map(
+    (curve, k) => `${curve.label} ${shownValue(values[k] ?? null, plot.y.unit)} ${shownUnit(plot.y.unit)}`,
   );
   return (
     <div class="fig-plot">
       <div class="fig-axis-names">
-        <span>{withUnit(plot.y.label, plot.y.shown_unit)}</span>
+        <span>{withUnit(plot.y.label, plot.y.unit)}</span>
       </div>
       <div
         class="fig-field"
@@ -82,13 +82,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
           if (dragged || (event.pointerType === "mouse" && cursor.player.peek() === null)) point(event);
         }}
         onKeyDown={(event) => {
-          const to = keyed(
-            event,
-            inside(cursor.at.peek()) ?? shown.x.low,
-            shown.x.low,
-            shown.x.high,
-            plot.x.shown_unit,
-          );
+          const to = keyed(event, inside(cursor.at.peek()) ?? shown.x.low, shown.x.low, shown.x.high, plot.x.unit);
           if (to !== undefined) moveTo(cursor, to);
         }}
       >
@@ -96,7 +90,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
         <canvas ref={over} />
       </div>
       <div class="fig-axis-names fig-lower">
-        <span>{withUnit(plot.x.label, plot.x.shown_unit)}</span>
+        <span>{withUnit(plot.x.label, plot.x.unit)}</span>
       </div>
       <PlotLegend plot={plot} at={at} values={values} reading={reading} />
     </div>
@@ -111,15 +105,15 @@ interface LegendProps {
 }
 
 function PlotLegend({ plot, at, values, reading }: LegendProps) {
-  const several = plot.curves.length > 1;
+  const several = plot.series.length > 1;
   return (
     <ul class="fig-legend">
       {at !== null && <li class="fig-at">{t("figure.at", { at: reading })}</li>}
-      {plot.curves.map((curve, k) => (
+      {plot.series.map((curve, k) => (
         <li key={k}>
           <Swatch look={curve.look} dashed={curve.dashed} marked={several} />
           <span>{curve.label || plot.y.label}</span>
-          {at !== null && <b>{values[k] == null ? "–" : formatQuantity(values[k], plot.y.shown_unit)}</b>}
+          {at !== null && <b>{values[k] == null ? "–" : formatQuantity(values[k], plot.y.unit)}</b>}
         </li>
       ))}
     </ul>

@@ -3,7 +3,7 @@ import { useMemo } from "preact/hooks";
 import { Table } from "../ui";
 import { CursorContext, type Cursors } from "./cursor";
 import { Drawing } from "./drawing";
-import type { ShownFigure, ShownTable } from "./figures";
+import { aboutOf, type ShownFigure, type ShownTable } from "./figures";
 import { Player } from "./player";
 import { Plot } from "./plot";
 import { Gantt, StackedBars } from "./spans";
@@ -15,12 +15,13 @@ export function Figure({
   ghost,
   autoplay = false,
 }: Omit<BodyProps, "height" | "autoplay"> & { autoplay?: boolean }) {
+  const { title, note } = aboutOf(figure);
   const wide = figure.timing || figure.gantt || figure.bars;
   return (
     <figure class={`figure${wide ? " wide" : ""}`}>
-      <figcaption>{figure.title}</figcaption>
+      <figcaption>{title}</figcaption>
       <FigureBody figure={figure} ghost={ghost} autoplay={autoplay} />
-      {figure.note && <p class="ui-help">{figure.note}</p>}
+      {note && <p class="ui-help">{note}</p>}
     </figure>
   );
 }
@@ -36,7 +37,8 @@ interface BodyProps {
 
 /** A figure without title and note. */
 export function FigureBody({ figure, ghost, autoplay, height }: BodyProps) {
-  const { title, plot, drawing, animation, timing, gantt, bars } = figure;
+  const { plot, drawing, animation, timing, gantt, bars } = figure;
+  const { title } = aboutOf(figure);
   if (plot) return <Plot plot={plot} title={title} height={height} />;
   if (drawing) return <Drawing drawing={drawing} title={title} height={height} />;
   if (animation) return <Player animation={animation} ghost={ghost?.animation} {...{ title, autoplay, height }} />;

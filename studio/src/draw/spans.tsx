@@ -60,7 +60,17 @@ function Axes({ frame, names, label }: { frame: Frame; names: readonly string[];
   );
 }
 
-function Kinds({ kinds, looks, used, pale }: { kinds: string[]; looks: number[]; used: Set<number>; pale: number }) {
+function Kinds({
+  kinds,
+  looks,
+  used,
+  pale,
+}: {
+  kinds: string[];
+  looks: number[];
+  used: Set<number | null>;
+  pale: number;
+}) {
   return (
     <ul class="fig-legend">
       {kinds.map(
@@ -79,10 +89,10 @@ function Kinds({ kinds, looks, used, pale }: { kinds: string[]; looks: number[];
 /** What lanes are busy with over time. */
 export function Gantt({ gantt, title }: { gantt: ShownGantt; title: string }) {
   const [box, width] = useWidth();
-  const factor = parseUnit(gantt.x.shown_unit)?.factor ?? 1;
+  const factor = parseUnit(gantt.x.unit)?.factor ?? 1;
   const span = spanOf(gantt.lanes.flatMap((lane) => [lane.starts, lane.ends]));
   const names = gantt.lanes.map((lane) => lane.name);
-  const frame = frameOf(names, Math.min(span.low, 0) / factor, span.high / factor, gantt.x.shown_unit, width);
+  const frame = frameOf(names, Math.min(span.low, 0) / factor, span.high / factor, gantt.x.unit, width);
   const used = new Set(gantt.lanes.flatMap((lane) => lane.kinds));
   return (
     <div ref={box}>
@@ -92,7 +102,7 @@ export function Gantt({ gantt, title }: { gantt: ShownGantt; title: string }) {
         role="img"
         aria-label={`${title}. ${spokenGantt(gantt)}`}
       >
-        <Axes frame={frame} names={names} label={withUnit(gantt.x.label, gantt.x.shown_unit)} />
+        <Axes frame={frame} names={names} label={withUnit(gantt.x.label, gantt.x.unit)} />
         {gantt.lanes.map((lane, row) =>
           gantt.kinds.map((_, kind) => {
             const path = spansPath(lane, kind, (si) => frame.x(si / factor), row * ROW + (ROW - BAR) / 2);
@@ -130,11 +140,11 @@ function spokenGantt(gantt: ShownGantt): string {
   return gantt.lanes
     .map((lane) => {
       const sums = gantt.kinds.map((kind, number) => {
-        const total = lane.kinds.reduce(
+        const total = lane.kinds.reduce<number>(
           (sum, one, k) => (one === number ? sum + (lane.ends[k] ?? 0) - (lane.starts[k] ?? 0) : sum),
           0,
         );
-        return total > 0 ? `${kind} ${formatQuantity(total, gantt.x.shown_unit, 3)}` : "";
+        return total > 0 ? `${kind} ${formatQuantity(total, gantt.x.unit, 3)}` : "";
       });
       return `${lane.name}: ${sums.filter(Boolean).join(", ")}`;
     })
@@ -145,17 +155,17 @@ function spokenGantt(gantt: ShownGantt): string {
 export function StackedBars({ bars, title }: { bars: ShownBars; title: string }) {
   const [box, width] = useWidth();
   const id = useId();
-  const factor = parseUnit(bars.x.shown_unit)?.factor ?? 1;
+  const factor = parseUnit(bars.x.unit)?.factor ?? 1;
   const totals = bars.values.map((row) => row.reduce((sum: number, value) => sum + (value ?? 0), 0));
   const high = Math.max(...totals, 1e-12) / factor;
-  const frame = frameOf(bars.bars, 0, high, bars.x.shown_unit, width);
+  const frame = frameOf(bars.bars, 0, high, bars.x.unit, width);
   const used = new Set(
     bars.kinds.map((_, kind) => kind).filter((kind) => bars.values.some((row) => (row[kind] ?? 0) > 0)),
   );
   const columns = [
     { heading: "" },
-    ...bars.kinds.map((heading) => ({ heading, unit: bars.x.shown_unit })),
-    { heading: t("figure.total"), unit: bars.x.shown_unit },
+    ...bars.kinds.map((heading) => ({ heading, unit: bars.x.unit })),
+    { heading: t("figure.total"), unit: bars.x.unit },
   ];
   const rows = bars.bars.map((name, row) => [name, ...(bars.values[row] ?? []), totals[row] ?? 0]);
   return (
@@ -167,7 +177,7 @@ export function StackedBars({ bars, title }: { bars: ShownBars; title: string })
         aria-label={title}
         aria-describedby={id}
       >
-        <Axes frame={frame} names={bars.bars} label={withUnit(bars.x.label, bars.x.shown_unit)} />
+        <Axes frame={frame} names={bars.bars} label={withUnit(bars.x.label, bars.x.unit)} />
         {bars.values.map((row, at) => {
           let from = 0;
           return row.map((value, kind) => {
@@ -184,7 +194,7 @@ export function StackedBars({ bars, title }: { bars: ShownBars; title: string })
                 height={BAR}
                 fill={cssColour(bars.looks[kind] ?? kind)}
               >
-                <title>{`${bars.kinds[kind] ?? ""} ${formatNumber(fromSi(value ?? 0, bars.x.shown_unit))}`}</title>
+                <title>{`${bars.kinds[kind] ?? ""} ${formatNumber(fromSi(value ?? 0, bars.x.unit))}`}</title>
               </rect>
             );
           });

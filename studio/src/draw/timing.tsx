@@ -39,7 +39,7 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
     const share = ((event.clientX - rectangle.left) / rectangle.width) * width;
     moveTo(cursor, Math.min(Math.max((share - left) / frame.width, 0), 1) * TURN);
   };
-  const reading = at === null ? "" : formatQuantity(at, timing.drive.shown_unit);
+  const reading = at === null ? "" : formatQuantity(at, timing.drive.unit);
   return (
     <div ref={box}>
       <div
@@ -61,7 +61,7 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
           if (dragged || (event.pointerType === "mouse" && cursor.player.peek() === null)) point(event);
         }}
         onKeyDown={(event) => {
-          const to = keyed(event, at ?? 0, 0, TURN, timing.drive.shown_unit);
+          const to = keyed(event, at ?? 0, 0, TURN, timing.drive.unit);
           if (to !== undefined) moveTo(cursor, to);
         }}
       >
@@ -110,7 +110,7 @@ function Motions({ timing, at }: { timing: ShownTiming; at: number }) {
     const values = RATES.map(([, per], of) => {
       const curve = lane.motion[of];
       const value = curve === undefined ? null : valueAt(lane.angle, curve, at);
-      return value === null ? "" : formatQuantity(quiet(value, greatestOf([curve ?? []])), `${lane.shown_unit}${per}`);
+      return value === null ? "" : formatQuantity(quiet(value, greatestOf([curve ?? []])), `${lane.unit}${per}`);
     });
     return [lane.name, move === undefined ? t("figure.dwell") : `${move.name} · ${move.law}`, ...values];
   });
@@ -146,7 +146,7 @@ function Lanes({ timing, frame, bottom, order }: LanesProps) {
         <g key={angle}>
           <line class="grid" x1={frame.x(angle)} x2={frame.x(angle)} y1={TOP} y2={bottom} />
           <text x={frame.x(angle)} y={bottom + 14} text-anchor="middle">
-            {formatQuantity(angle, timing.drive.shown_unit)}
+            {formatQuantity(angle, timing.drive.unit)}
           </text>
           <text x={frame.x(angle)} y={TOP - 7} text-anchor="middle">
             {formatQuantity((angle / TURN) * timing.period, "s", 3)}

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 
 from ilmek.progress import SILENT, Progress
-from ilmek.sentences import Sentence, translated
+from ilmek.records import json_value
 
 PACKED = "application/vnd.ilmek.packed"
 """Media type of JSON with bytes behind it: see `packed`."""
@@ -46,13 +46,6 @@ class Context:
         return Path(self.project)
 
 
-def text_of(value: object) -> str:
-    """The text of a sentence in the language of the page. Raises TypeError for anything else."""
-    if isinstance(value, Sentence):
-        return translated(value)
-    raise TypeError(f"an answer with {type(value).__name__}")
-
-
 def packed(about: object, *parts: bytes) -> Binary:
     """JSON and arrays in one answer.
 
@@ -60,7 +53,7 @@ def packed(about: object, *parts: bytes) -> Binary:
     multiple of eight bytes; then the parts, each filled with zeros to a multiple of eight. The JSON must state the
     lengths of the parts.
     """
-    text = msgspec.json.encode(about, enc_hook=text_of)
+    text = msgspec.json.encode(about, enc_hook=json_value)
     text += b" " * (-(len(text) + 4) % 8)
     filled = (part + bytes(-len(part) % 8) for part in parts)
     return Binary(PACKED, b"".join((len(text).to_bytes(4, "little"), text, *filled)))

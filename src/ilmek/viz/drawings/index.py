@@ -128,7 +128,7 @@ def _reasons(reasons: Sequence[Check]) -> SheetPicture:
     """Why nothing is released: the heaviest failed checks, each with its cure."""
     texts = [SheetText(0j, Sentence("sheet.reasons"), 3.5, bold=True)]
     for reason in reasons[:_REASONS]:
-        words, _ = fitting(Sentence("sheet.reason", name=reason.name, cure=reason.cure), 360.0, 2.5, 2.5)
+        words, _ = fitting(Sentence("sheet.reason", reason=reason.name, cure=reason.cure), 360.0, 2.5, 2.5)
         texts.append(SheetText(complex(0.0, -5.0 * len(texts) - 1), words, 2.5))
     more = len(reasons) - _REASONS
     if more > 0:

@@ -48,7 +48,7 @@ function driveLabel(motion: MotionAnswer): string {
 export function Curve({ motion, title, unit, series, limit }: Props) {
   const cursors = useContext(CursorContext);
   const plot = useMemo(() => plotOf(motion, title, unit, series, limit), [motion, title]);
-  if (plot.curves.length === 0) return null;
+  if (plot.series.length === 0) return null;
   cursorOf(cursors, plot.x.label);
   return (
     <Plot
@@ -80,5 +80,5 @@ export function plotOf(
   }
   const marks: Mark[] = motion.dead_centres.map((one) => ({ x: one.value, label: one.bodies.join(", ") }));
   const drive = motion.kind === "rotation" ? "deg" : "mm";
-  return { x: { label: driveLabel(motion), shown_unit: drive }, y: { label: title, shown_unit: unit }, curves, marks };
+  return { x: { label: driveLabel(motion), unit: drive }, y: { label: title, unit: unit }, series: curves, marks };
 }

@@ -91,13 +91,13 @@ describe("curves and arrows", () => {
   it("have a limit across and the dead centres as marks", () => {
     const dead = { ...motion, dead_centres: [{ value: 1.5, bodies: ["coupler", "rocker"] }] };
     const plot = plotOf(dead, "angle", "deg", { B: [1, 1, null, null] }, { value: 0.7, label: "usual" });
-    expect(plot.x).toEqual({ label: "crank", shown_unit: "deg" });
-    expect(plot.curves.map((curve) => [curve.label, curve.y])).toEqual([
+    expect(plot.x).toEqual({ label: "crank", unit: "deg" });
+    expect(plot.series.map((curve) => [curve.label, curve.y])).toEqual([
       ["B", [1, 1, null, null]],
       ["usual", [0.7, 0.7]],
     ]);
     expect(plot.marks).toEqual([{ x: 1.5, label: "coupler, rocker" }]);
-    expect(plotOf(dead, "angle", "deg", {}, { value: 0.7, label: "usual" }).curves).toEqual([]);
+    expect(plotOf(dead, "angle", "deg", {}, { value: 0.7, label: "usual" }).series).toEqual([]);
   });
 
   it("have the scale of the greatest of all samples, and no head without a shaft", () => {

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import type { MachineFigures, ShownFigure } from "../../api/messages";
-import { Figure, SharedCursor } from "../../draw";
+import { aboutOf, Figure, SharedCursor } from "../../draw";
 import { t } from "../../text";
 import { Toggle } from "../../ui";
 import { CompareButtons, Differences } from "./compare";
@@ -26,7 +26,11 @@ export function Figures({ model }: { model: MachineModel }) {
       <SharedCursor key={`${model.machine.value} ${model.part.value}`}>
         <div class="fig-grid">
           {shown.map((figure) => (
-            <Figure key={figure.name} figure={figure} ghost={b?.figures.find((one) => one.name === figure.name)} />
+            <Figure
+              key={aboutOf(figure).name}
+              figure={figure}
+              ghost={b?.figures.find((one) => aboutOf(one).name === aboutOf(figure).name)}
+            />
           ))}
         </div>
       </SharedCursor>
@@ -36,7 +40,7 @@ export function Figures({ model }: { model: MachineModel }) {
 }
 
 function ordered(figures: readonly ShownFigure[], names: readonly string[]): ShownFigure[] {
-  return names.flatMap((name) => figures.find((figure) => figure.name === name) ?? []);
+  return names.flatMap((name) => figures.find((figure) => aboutOf(figure).name === name) ?? []);
 }
 
 function Choose({ model, found }: { model: MachineModel; found: MachineFigures }) {

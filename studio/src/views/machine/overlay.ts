@@ -1,17 +1,18 @@
 /** The curves of B, in colours and marks of their own, dashed over those of A. */
 import type { ShownFigure } from "../../api/messages";
+import { aboutOf } from "../../draw/figures";
 
 /** The figures of A with the curves of the figures of B that have the same name and the same axes. */
 export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): ShownFigure[] {
-  const others = new Map(b.map((figure) => [figure.name, figure]));
+  const others = new Map(b.map((figure) => [aboutOf(figure).name, figure]));
   return a.map((figure) => {
-    const [mine, theirs] = [figure.plot, others.get(figure.name)?.plot];
-    if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.shown_unit !== theirs.y.shown_unit) return figure;
-    const looks = 1 + Math.max(...mine.curves.map((curve) => curve.look));
-    const dashed = theirs.curves.map((curve) => {
+    const [mine, theirs] = [figure.plot, others.get(aboutOf(figure).name)?.plot];
+    if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.unit !== theirs.y.unit) return figure;
+    const looks = 1 + Math.max(...mine.series.map((curve) => curve.look));
+    const dashed = theirs.series.map((curve) => {
       return { ...curve, label: `B: ${curve.label}`, look: looks + curve.look, dashed: true };
     });
-    return { ...figure, plot: { ...mine, curves: [...mine.curves, ...dashed] } };
+    return { ...figure, plot: { ...mine, series: [...mine.series, ...dashed] } };
   });
 }
 

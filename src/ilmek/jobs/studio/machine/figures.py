@@ -9,9 +9,9 @@ from ilmek.jobs.studio.words import all_in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import AnyComponent, Child
 from ilmek.params import Setting
-from ilmek.report import Figure
-from ilmek.viz.plain.figures import shown_figures, shown_table
-from ilmek.viz.plain.records import ShownFigure, ShownTable
+from ilmek.report import Figure, Table
+from ilmek.viz.number_format import quiet
+from ilmek.viz.plain import KINDS, ShownFigure, shown_figures
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,18 +67,7 @@ class TablesRequest:
 class MachineTables:
     """The tables of a design."""
 
-    tables: list[ShownTable]
-
-
-KINDS = {
-    "Plot": "plot",
-    "Drawing": "drawing",
-    "Animation": "animation",
-    "Timing": "timing",
-    "Gantt": "gantt",
-    "StackedBars": "bars",
-}
-"""Kinds of figures by their classes."""
+    tables: list[Table]
 
 
 def figures(request: FiguresRequest, context: Context) -> MachineFigures:
@@ -90,7 +79,7 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
     chosen = [one for one in drawn if request.names is None or one.name in request.names]
     return MachineFigures(
         shown_figures(chosen),
-        tuple(NamedFigure(one.name, one.title, KINDS[type(one).__name__]) for one in drawn),
+        tuple(NamedFigure(one.name, one.title, KINDS[type(one)]) for one in drawn),
         tuple(NamedPart(child.name, child.component.title) for child in children),
         all_in_page(warnings),
     )
@@ -104,7 +93,7 @@ def tables(request: TablesRequest, context: Context) -> MachineTables:
     if request.part:
         child = _part(machine, tuple(machine.children(design)), request.part)
         component, design = child.component, child.design
-    return MachineTables([shown_table(table) for table in component.tables(component.analysis(design))])
+    return MachineTables([quiet(table) for table in component.tables(component.analysis(design))])
 
 
 def _part(machine: AnyComponent, children: tuple[Child, ...], part: str) -> Child:
