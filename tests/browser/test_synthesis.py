@@ -9,7 +9,7 @@ from studio_browser import Studio, data_of, middle, open_view, until_data, until
 
 
 def full_search_ended(page: Page) -> None:
-    expect(page.locator(".synthesis-gallery").get_by_text("Full search", exact=True)).to_be_visible()
+    expect(page.locator(".ui-verdict").get_by_text("Full search", exact=True)).to_be_visible()
     expect(page.locator(".synthesis-card").first).to_be_visible()
 
 

@@ -193,13 +193,16 @@ def settled(page: Page) -> None:
     page.evaluate(AT_REST, PATIENCE)
 
 
-def context_of(browser: Browser, *, width: int = 1400, height: int = 900, dark: bool = False) -> BrowserContext:
+def context_of(
+    browser: Browser, *, width: int = 1400, height: int = 900, dark: bool = False, touch: bool = False
+) -> BrowserContext:
     """A fresh visitor with a window of a size [px]."""
     context = browser.new_context(
         viewport={"width": width, "height": height},
         color_scheme="dark" if dark else "light",
         reduced_motion="reduce",
         locale="en-GB",
+        has_touch=touch,
     )
     context.set_default_timeout(PATIENCE)
     context.add_init_script(COUNT_REQUESTS)
