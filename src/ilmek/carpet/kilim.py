@@ -31,7 +31,6 @@ from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, param
-from ilmek.records import record
 from ilmek.units import g, m, mm
 
 SLIT, DOVETAIL, INTERLOCK = JOINS = ("slit", "dovetail", "interlock")
