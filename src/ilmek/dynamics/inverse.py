@@ -195,7 +195,7 @@ class Forces(Framed):
 
 def plain(value: RealField) -> float:
     """A number of one mechanism as such; of several variants the array."""
-    return value if np.ndim(value) else float(value)
+    return value if np.ndim(value) else float(value)  # type: ignore[return-value]
 
 
 def inverse(

@@ -163,7 +163,7 @@ def _plan(  # noqa: PLR0917 - all that distinguishes a study
     holds: tuple[Hold, ...],
 ) -> JsonObject:
     """What is studied, as plain data: the header of the results file."""
-    plan: dict[str, Any] = {
+    plan: JsonObject = {
         "target": dict(target.identity),
         "variables": [[v.name, v.low, v.high, v.nominal, v.spread, list(v.choices)] for v in variables],
         "results": list(results),
