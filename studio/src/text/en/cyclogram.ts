@@ -103,7 +103,6 @@ export default {
   gapLeast: "gap {gap}, at least {least}",
   gapMost: "gap {gap}, at most {most}",
   apart: "{apart} apart, at least {gap}",
-  limit: "{value}, limit {limit}",
   holds: "holds",
   violated: "violated",
   failing: "{count} of {all} violated",
