@@ -25,6 +25,7 @@ from ilmek.api.designs import design as design
 from ilmek.api.designs import list_machines as list_machines
 from ilmek.api.designs import parameters as parameters
 from ilmek.api.designs import reproduce as reproduce
+from ilmek.api.forward_runs import forward_dynamics as forward_dynamics
 from ilmek.api.four_bars import crank_rocker as crank_rocker
 from ilmek.api.four_bars import function_four_bars as function_four_bars
 from ilmek.api.four_bars import motion_four_bars as motion_four_bars
@@ -40,8 +41,8 @@ from ilmek.api.masses import combined as combined
 from ilmek.api.masses import point_mass as point_mass
 from ilmek.api.mechanisms import four_bar as four_bar
 from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
+from ilmek.api.mechanisms import mechanism as mechanism
 from ilmek.api.mechanisms import read_mechanism as read_mechanism
-from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
@@ -63,10 +64,13 @@ from ilmek.carpet.chart import Chart as Chart
 from ilmek.dynamics.forward_run import ForwardRun as ForwardRun
 from ilmek.dynamics.inertia import Inertia as Inertia
 from ilmek.dynamics.inverse import Forces as Forces
+from ilmek.dynamics.joint_friction import PinFriction as PinFriction
+from ilmek.dynamics.joint_friction import SlideFriction as SlideFriction
 from ilmek.dynamics.loads import Gravity as Gravity
 from ilmek.dynamics.loads import Load as Load
 from ilmek.dynamics.loads import PointForce as PointForce
 from ilmek.dynamics.loads import Torque as Torque
+from ilmek.dynamics.motor_drive import MotorDrive as MotorDrive
 from ilmek.dynamics.own_machine import OwnMachine as OwnMachine
 from ilmek.dynamics.springs import Spring as Spring
 from ilmek.errors import IlmekError as IlmekError

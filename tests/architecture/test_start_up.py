@@ -43,6 +43,17 @@ def test_a_command_imports_what_it_uses(command: str) -> None:
     assert imported(statement, COMMANDS[command]) == []
 
 
+def test_linkages_and_cams_run_where_only_numpy_and_scipy_are() -> None:
+    """As in a browser: `docs/explanation/in-a-browser.md`."""
+    statement = (
+        "import ilmek as il, numpy as np; bar = il.four_bar(0.3, 0.06, 0.2, 0.23, points={'coupler.P': 0.1})\n"
+        "motion = il.solve(bar, np.linspace(0, 6, 7), speed=1.0); il.judged(bar).limits('rocker')\n"
+        "il.inverse_dynamics(motion, {'rocker': il.bar(0, 0.23, mass=1.0)}).table()\n"
+        "il.plate_cam(il.cam_programme(il.rise(3.0, 0.02), il.fall(3.0, 0.02), il.dwell(2 * np.pi - 6)), 0.08)"
+    )
+    assert imported(statement, ("numba", "mapbox_earcut", "fcl", "manifold3d", "uharfbuzz", "rich")) == []
+
+
 def test_a_page_compiles_nothing(tmp_path: Path) -> None:
     command = ["design", "warp-tension", "--report", str(tmp_path / "page.html")]
     statement = f"from ilmek.cli import main; main({command!r}, standalone_mode=False)"

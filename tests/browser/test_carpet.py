@@ -50,7 +50,7 @@ def _set(page: Page, label: str, value: str) -> None:
 
 
 def _tool(page: Page, name: str) -> None:
-    page.locator(".carpet-tools").get_by_role("radio", name=name).check()
+    page.get_by_role("toolbar").get_by_role("button", name=name).click()
 
 
 def _status(page: Page, text: str | re.Pattern[str]) -> str:

@@ -60,7 +60,7 @@ def _drag(page: Page, begin: tuple[float, float], end: tuple[float, float]) -> N
 
 
 def _tool(page: Page, name: str) -> None:
-    page.locator(".carpet-tools").get_by_role("radio", name=name).check()
+    page.get_by_role("toolbar").get_by_role("button", name=name).click()
 
 
 def test_a_drawn_colour_gets_a_yarn_by_hand(carpet: Page, running: Studio) -> None:

@@ -24,12 +24,12 @@ def test_a_motion_is_dragged_until_a_rule_is_violated(page: Page, running: Studi
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 200, y, steps=6)
-    expect(page.get_by_text("1 of 9 violated")).to_be_visible()
+    expect(page.get_by_text("1 check fails")).to_be_visible()
     expect(page.get_by_text("both present").first).to_be_attached()
     page.mouse.up()
     until_data(running.project, press, lambda data: data != before)
     page.get_by_label("Undo (Ctrl+Z)").click()
-    expect(page.get_by_text("All hold")).to_be_visible()
+    expect(page.get_by_text("Every check holds")).to_be_visible()
     until_data(running.project, press, lambda data: data == before)
 
 

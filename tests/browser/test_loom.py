@@ -270,7 +270,6 @@ def test_the_page_of_a_loom_needs_no_server(browser: Browser, running: Studio, t
         page = context.new_page()
         seen.watch(page, file.as_uri())
         page.goto(file.as_uri())
-        page.get_by_role("button", name="Show the loom in space").click()
         expect(page.locator(".loom canvas")).to_have_attribute("data-pictures", re.compile(r"\d"), timeout=PATIENCE)
         page.get_by_role("tab", name="Parts").click()
         listed(page).select_option("beat-up/crank")

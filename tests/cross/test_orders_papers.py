@@ -13,10 +13,14 @@ from ilmek.carpet.price_rules import WageRules
 from ilmek.io.selling.mounting_sheet import write_mounting
 from ilmek.io.selling.wage_sheet import WageSheet, write_wages
 from ilmek.io.yarn_file import default_yarns
-from ilmek.sentences import LANGUAGES, WEAVERS, catalogue_of, in_language
+from ilmek.sentences import LANGUAGES, WEAVERS, Name, catalogue_of, in_language
 
 FOREIGN = [language for language in WEAVERS if language not in LANGUAGES]
 CHART = Chart(np.zeros((75, 50), np.uint8), default_yarns()[:2], "20x30cm", "25x25/dm", "symmetric")
+
+
+NAME = Name("A 12")
+"""A name keeps its digits, those of a word of digits alone too."""
 
 
 def bare(text: str) -> str:
@@ -26,10 +30,10 @@ def bare(text: str) -> str:
 
 def papers(language: str, folder: Path) -> list[str]:
     rules = WageRules(3.2, 1000, 1, 0.02, 0.2, 25)
-    sheet = WageSheet(rules, "﷼", 75, 3750, 2, rules.payments([50] * 75, 2), 30)
+    sheet = WageSheet(rules, "﷼", 75, 2, rules.payments([(0, 50)] * 5 + [(50, 0)] * 70, 2), 30)
     with in_language(language):
-        write_mounting(folder / "mounting.pdf", "#1", CHART, mounting(CHART))
-        write_wages(folder / "wages.pdf", "#1", sheet)
+        write_mounting(folder / "mounting.pdf", NAME, CHART, mounting(CHART))
+        write_wages(folder / "wages.pdf", NAME, sheet)
     return [
         "\n".join(page.get_textpage().get_text_range() for page in pypdfium2.PdfDocument(folder / name))
         for name in ("mounting.pdf", "wages.pdf")
@@ -40,7 +44,7 @@ def papers(language: str, folder: Path) -> list[str]:
 def test_no_english_and_no_latin_digit_is_left(language: str, tmp_path: Path) -> None:
     for text in papers(language, tmp_path):
         assert not re.findall(r"[A-Za-z]{2,}", text)
-        assert not re.findall(r"[0-9]", text.replace("#1", ""))  # the code of an order is read on its label too
+        assert len(re.findall(r"[0-9]+", text)) == len(re.findall("A 12|12 A", text)) == 2  # pdfium may turn words
 
 
 @pytest.mark.parametrize("language", FOREIGN)
@@ -49,7 +53,7 @@ def test_each_text_is_read_back_in_logical_order(language: str, tmp_path: Path) 
     catalogue, digits = catalogue_of(language), str.maketrans("0123456789", WEAVERS[language].digits)
     for key in ("mounting", "warp-beam", "cloth-beam", "size", "knot"):
         assert bare(catalogue[f"order.{key}"].translate(digits)) in shown, key
-    for key in ("wages", "rate", "supplement", "wage", "advance", "due", "payments", "earned", "deducted", "paid"):
+    for key in ("wages", "rate", "supplement", "wage", "advance", "due", "payments", "flat", "flat-rate", "paid"):
         assert bare(catalogue[f"order.{key}"]) in wages, key
     done = catalogue["order.woven-text"].format(done=30, rows=75).translate(digits)
     begin = catalogue["order.begin-row"].translate(digits)

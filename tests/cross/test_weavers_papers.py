@@ -18,6 +18,9 @@ from ilmek import sentences
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.cells import CUT_AWAY, PILE, CellMap
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.ground import GroundParams
+from ilmek.carpet.kilim import KilimParams
+from ilmek.carpet.kilim_cloth import KilimCloth, KilimPrices, kilim_cloth
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
@@ -27,6 +30,7 @@ from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn_plan import OVERCAST, TAPE, YarnPlanParams
 from ilmek.cli.call_screen import print_rows, screen_lines, spoken_step
 from ilmek.io.chart import bidi, lettering
+from ilmek.io.chart.join_marks import kilim_printing
 from ilmek.io.chart.legend import mounting_lines
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.printing import Printing
@@ -34,6 +38,7 @@ from ilmek.io.chart.rows_colours_pdf import colour_pages, write_colours_pdf
 from ilmek.io.chart.rows_pdf import write_rows_pdf
 from ilmek.io.chart.rows_text import header
 from ilmek.io.chart.wall import write_wall_pdf
+from ilmek.io.kilim_rows import write_kilim_rows
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.call import Calling
 from ilmek.sentences import LANGUAGES, WEAVERS, Sentence, catalogue_of, in_language, translated
@@ -84,6 +89,9 @@ def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Pat
             lambda: write_chart_pdf(file, chart, printing=printing),  # noqa: B023 - called at once
             lambda: write_wall_pdf(file, chart, printing=printing),  # noqa: B023
         ]
+        if chart.rows == 12:
+            kilim = kilim_printing(kilim_of(chart), "", language)
+            writers.append(lambda: write_chart_pdf(file, chart, printing=kilim))  # noqa: B023
         for direction in DIRECTIONS if chart.rows in (12, 24) else ("both",):
             pages = len(list(colour_pages(chart, direction)))
             writers += [
@@ -93,6 +101,12 @@ def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Pat
         for write in writers:
             write()
             yield file
+
+
+def kilim_of(chart: Chart) -> KilimCloth:
+    """A chart as a kilim with open slits."""
+    prices = KilimPrices((None,) * len(chart.yarns), None, 0.0)
+    return kilim_cloth(chart, KilimParams(), GroundParams(), prices)
 
 
 def call_of(chart: Chart) -> Iterator[str]:
@@ -126,6 +140,7 @@ def test_the_papers_say_what_the_catalogues_have(
     with in_language("fa"):
         for split in ("runs", "colours"):
             header(CHARTS[1], split, "both")
+        write_kilim_rows(tmp_path / "rows.txt", kilim_of(CHARTS[3]), "fa")
         for chart in CHARTS[1:4]:
             assert len(list(call_of(chart))) > 20
             print_rows(Calling(chart, "colours", "left"))

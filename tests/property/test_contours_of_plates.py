@@ -8,7 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import PlateCam, area
+from ilmek.cams.limits import area
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.errors import ParameterError
 from ilmek.plane import contours

@@ -104,12 +104,12 @@ def moved(planned, course=TIME) -> Motion:
 
 def jerks(motion: Motion):
     for body in motion.plan.mechanism.bodies:
-        yield body.name, motion.alpha(body.name), motion.jerk(body.name)
+        yield body.name, motion.alpha(body.name), motion[body.name].beta
         for point in body.points:
             yield (
                 f"{point} of {body.name}",
                 motion.point(body.name, point).acceleration,
-                motion.point_jerk(body.name, point),
+                motion[body.name, point].jerk,
             )
 
 
@@ -145,14 +145,14 @@ def test_jerk_of_a_driven_slide_on_a_turning_body():
     )
     motion = solve(plan(mechanism), *rates)
     expected = 1 - 3 * 9 * 5 - 3 * 3 * 4 * 2 + 1j * (6 * 2 + 3 * 4 * 5 + 3 * 3 * 7 - 27 * 2)
-    np.testing.assert_allclose(motion.point_jerk("bead", "way"), expected, rtol=1e-14)
-    np.testing.assert_allclose(motion.jerk("bead"), 6.0)
+    np.testing.assert_allclose(motion["bead", "way"].jerk, expected, rtol=1e-14)
+    np.testing.assert_allclose(motion["bead"].beta, 6.0)
 
 
 def test_the_ground_has_none_and_strangers_are_refused():
     motion = moved(plan(MECHANISMS["RRR"]))
-    assert not motion.jerk(GROUND).any()
+    assert not motion[GROUND].beta.any()
     with pytest.raises(MechanismError, match="no body 'arm'"):
-        motion.jerk("arm")
+        _ = motion["arm"].beta
     with pytest.raises(MechanismError, match="the jerk of input 'crank' is not finite"):
         solve(motion.plan, TIME, 1.0, 0.0, np.full(256, np.nan))

@@ -14,7 +14,8 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
-from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, OwnMachine
+from ilmek.dynamics.motor_drive import MotorDrive
+from ilmek.dynamics.own_machine import ForwardTask, NamedLoad, OwnMachine
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.status import Status
@@ -79,7 +80,7 @@ def test_random_machines_give_no_warnings(design: Numbers) -> None:
     assert np.isfinite(forces.effort("crank")[solved]).all()
     assert all(np.isfinite(force[solved]).all() for force in forces.reactions.values())
     coasting = (
-        ilmek.simulate(mechanism, inertias, TIME, position=0.4, speed=6.0, loads=loads, every=0.01)
+        ilmek.forward_dynamics(mechanism, inertias, TIME, position=0.4, speed=6.0, loads=loads, every=0.01)
         if motion.ok
         else None
     )

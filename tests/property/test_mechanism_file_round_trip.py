@@ -14,11 +14,11 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
 from ilmek.dynamics.joint_friction import PinFriction
 from ilmek.dynamics.loads import PointForce, Torque
+from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.dynamics.own_machine import (
     FlatMember,
     ForwardTask,
     GivenMotion,
-    MotorDrive,
     NamedLoad,
     OwnMachine,
     PinMember,

@@ -40,7 +40,7 @@ def use_everything(mechanism: Mechanism, values: dict[str, np.ndarray], machine:
         motion.table()
         transmission_angles(motion)
         for body in mechanism.moving:
-            motion.jerk(body)
+            assert len(motion[body].beta) == len(motion)
             assert np.isfinite(motion.omega(body)[motion.status == Status.OK]).all()
             assert not np.isinf(motion.omega(body)).any()
         ilmek.inverse_dynamics(motion, machine.inertias, [ilmek.Gravity(machine.gravity)])

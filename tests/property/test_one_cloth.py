@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 from cloths import cloth
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.yarns import COTTON, usual_warp_density
@@ -31,7 +32,7 @@ _LOOMS = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=6)
+@examples(18, 3)
 @given(_LOOMS)
 def test_every_machine_of_a_loom_weaves_the_same_cloth(asked: dict[str, Any]) -> None:
     loom = design(AutomatedLoomParams.read(asked))

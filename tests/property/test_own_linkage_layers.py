@@ -5,7 +5,8 @@ What meets is judged by solids of manifold3d at poses of the drive, without what
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from effort import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from own_linkages import meeting_parts, toml_text
 
@@ -45,7 +46,7 @@ def judged(mechanism: MadeMechanism) -> None:
 
 
 @given(sizes=made_lengths, branch=st.sampled_from([-1, 1]), loaded=st.booleans())
-@settings(max_examples=5)
+@examples(15, 3)
 def test_a_random_four_bar_has_layers_in_which_nothing_meets(
     sizes: tuple[int, int, int, int], branch: int, loaded: bool
 ) -> None:
@@ -62,7 +63,7 @@ def test_a_random_four_bar_has_layers_in_which_nothing_meets(
     crank=st.integers(20, 30), rod=st.integers(80, 110), arm=st.integers(50, 90), second=lengths, output=lengths,
     away=st.integers(150, 260), below=st.integers(-60, 60),
 )  # fmt: skip
-@settings(max_examples=4)
+@examples(12, 2)
 def test_a_random_six_bar_has_layers_in_which_nothing_meets(  # noqa: PLR0917
     crank: int, rod: int, arm: int, second: int, output: int, away: int, below: int
 ) -> None:

@@ -83,7 +83,7 @@ def equations(
         inertia, rows = machine.inertias[body], slice(3 * row, 3 * row + 3)
         arm = motion.direction(body)[k] * inertia.centre
         centre, turning = motion.origin(body)[k] + arm, 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
-        change = inertia.mass * (motion.acceleration_of_origin(body)[k] + turning * arm - GRAVITY)
+        change = inertia.mass * (motion[body].acceleration[k] + turning * arm - GRAVITY)
         y[rows] = change.real, change.imag, inertia.moment * motion.alpha(body)[k]
         for column, (_, ends) in enumerate(columns):
             for _, place, force, torque in (end for end in ends if end[0] == body):

@@ -53,12 +53,12 @@ def mean_force(run: SystemRun) -> np.ndarray:
 def test_a_pin_of_vanishing_clearance_is_the_ideal_pin() -> None:
     ideal = simulate(beat_up(), TIMES)
     wanted, size = mean_force(ideal), float(np.max(np.abs(ideal.pin("B"))))
-    runs = [loose(clearance) for clearance in (1.2e-4, 3e-5, 1e-6)]
+    runs = [loose(clearance) for clearance in (1.2e-4, 1e-6)]
     off = [float(np.max(np.abs(mean_force(run) - wanted))) / size for run in runs]
     strayed = [float(np.max(np.abs(run.angle("rocker") - ideal.angle("rocker")))) for run in runs]
-    assert off[2] < 0.01 < off[0] < 0.1
-    assert strayed[2] < 2e-5 < strayed[0] < 1e-3
-    assert runs[2].peaks["B"] < 0.2 * runs[0].peaks["B"]
+    assert off[1] < 0.01 < off[0] < 0.1
+    assert strayed[1] < 2e-5 < strayed[0] < 1e-3
+    assert runs[1].peaks["B"] < 0.2 * runs[0].peaks["B"]
     assert max(float(np.max(np.abs(run.energy_residual))) for run in runs) < 1e-6
 
 

@@ -44,7 +44,7 @@ def test_oldham_coupling_passes_the_speed_on_and_its_disc_goes_round_twice():
     np.testing.assert_array_equal(motion.alpha("shaft"), 0.5)
     centre = motion.origin("disc")
     np.testing.assert_allclose(np.abs(centre - offset / 2), abs(offset) / 2, atol=1e-16)
-    np.testing.assert_allclose(motion.velocity_of_origin("disc") / (centre - offset / 2), 2j * SPEED, atol=1e-12)
+    np.testing.assert_allclose(motion["disc"].velocity / (centre - offset / 2), 2j * SPEED, atol=1e-12)
 
 
 def whitworth(radius, distance, branch=+1) -> Mechanism:

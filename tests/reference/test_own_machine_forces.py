@@ -183,7 +183,7 @@ def all_at_once(
     for row, body in enumerate(bodies):
         rates = 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
         arm = centre[body] - place[body][0]
-        change = inertia[body].mass * (motion.acceleration_of_origin(body)[k] + rates * arm)
+        change = inertia[body].mass * (motion[body].acceleration[k] + rates * arm)
         rows = slice(3 * row, 3 * row + 3)
         y[rows] = np.array([change.real, change.imag, inertia[body].moment * motion.alpha(body)[k]]) - load[body]
         for column, (_, on, by, at, force, couple) in enumerate(units):

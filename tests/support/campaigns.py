@@ -122,6 +122,12 @@ PARTS = (
         _numbered("planted_faults", ()),
         whole=True,
     ),
+    Part(
+        "briefs",
+        "what an agent asks of `ilmek mcp` for briefs of a designer's day",
+        _numbered("briefs", ()),
+        whole=True,
+    ),
     Part("mutants", "small wrong changes of the sources that a test must notice", _numbered("mutants", ()), whole=True),
 )
 

@@ -33,7 +33,6 @@ def main() -> None:
         page = browser.new_page(viewport={"width": 1500, "height": 1000})
         page.goto(page_file.as_uri())
         page.add_style_tag(content="nav { display: none !important }")
-        page.get_by_role("button", name="Show the loom in space").click()
         if sys.argv[3:]:
             _view(page, VIEWS[0]).save(folder / f"{sys.argv[3]}.webp", quality=82)
             return

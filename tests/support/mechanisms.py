@@ -169,6 +169,6 @@ def check_newton(mechanism: Mechanism, angle: FloatArray) -> None:
     posed = plan(replace(mechanism, pose=pose), closed_forms=False)
     found = solve(posed, angle, speed, acceleration).require()
     for body in mechanism.moving:
-        for field in ("origin", "direction", "velocity_of_origin", "acceleration_of_origin", "omega", "alpha"):
-            ours, theirs = (getattr(one, field)(body) for one in (motion, found))
+        for field in ("position", "direction", "velocity", "acceleration", "omega", "alpha"):
+            ours, theirs = (getattr(one[body], field) for one in (motion, found))
             assert np.abs(ours - theirs).max() <= 1e-10 * max(1.0, np.abs(theirs).max()), (body, field)

@@ -14,10 +14,10 @@ import numpy as np
 from small_programme import small_programme
 
 import ilmek
+from ilmek.cams import one_mass
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.sizes import parse_size
 from ilmek.carpet.yarn import Yarn
-from ilmek.dynamics.joint_friction import PinFriction
 from ilmek.dynamics.own_machine import NamedLoad
 from ilmek.io.programme_file import write_programme
 
@@ -111,7 +111,7 @@ NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "results", "synth
 BUILT = {
     "Motion": "built by solve; its methods are called below",
     "Forces": "built by inverse_dynamics; its methods are called below",
-    "ForwardRun": "built by simulate; its methods are called below",
+    "ForwardRun": "built by forward_dynamics; its methods are called below",
     "Report": "built by design; its lookup is called below",
     "Progress": "two callables and shares; calling what is no function is Python's own TypeError",
     "Cancelled": "an exception without arguments of its own",
@@ -168,7 +168,7 @@ def forces() -> ilmek.Forces:
 
 @cache
 def run() -> ilmek.ForwardRun:
-    return ilmek.simulate(four_bar(), INERTIAS, 0.5, speed=30.0, flywheel=0.1)
+    return ilmek.forward_dynamics(four_bar(), INERTIAS, 0.5, speed=30.0, flywheel=0.1)
 
 
 @cache
@@ -261,12 +261,28 @@ CALLS: dict[str, Call] = {
         (length(0.3), length(0.06), length(0.2), length(0.23)),
         dict(branch=Count(1), points=Other({"rocker": {"E": 0.3 + 0j}}, True, NOT_A_BODY), name=FreeText("four")),
     ),
+    "mechanism": Call(
+        ilmek.mechanism,
+        (
+            Other({"ground": {"O": 0, "line": 0}, "arm": {"O": 0}, "ram": {"line": 0}}, wrong=({"arm": {"O": 0}}, 3)),
+            Other(["arm", "line"], wrong=("ground", "rm", ["arm", 3], 3)),
+        ),
+        {
+            "slides": Other((SLIDE,), wrong=(SLIDE, ("line",))),
+            "branches": Other({}, wrong=({"line": 3}, {"x": 1})),
+            "name": FreeText("press"),
+        },
+    ),
     "slider_crank": Call(
         ilmek.slider_crank,
         (length(0.06), length(0.2)),
         dict(offset=length(0.01), branch=Count(1), points=Other({}, True, NOT_A_BODY), name=FreeText("slider")),
     ),
-    "read_mechanism": Call(ilmek.read_mechanism, (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),)),
+    "read_mechanism": Call(
+        ilmek.read_mechanism,
+        (Other(JANSEN, wrong=("no.toml", ".", "a\0b", "")),),
+        {"values": Other({}, wrong=({"stroke": "1mm"}, {1: "1mm"}, {"stroke": 3}))},
+    ),
     "write_mechanism": Call(
         lambda name, mechanism, inertias: ilmek.write_mechanism(new_path(name), mechanism, inertias),
         (Other("a.toml", wrong=("a.txt", "a/b.toml", "")), Other(four_bar()), Other(INERTIAS, True, WRONG_INERTIAS)),
@@ -327,20 +343,45 @@ CALLS: dict[str, Call] = {
         (Other(motion()), Other(INERTIAS, wrong=WRONG_INERTIAS)),
         dict(
             loads=Other((GRAVITY,), wrong=(GRAVITY, (3,), ilmek.Gravity)),
-            joint_frictions=Other((PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,), (PinFriction("x", 0.01, 0.1),))),
+            joint_frictions=Other(
+                (ilmek.PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,), (ilmek.PinFriction("x", 0.01, 0.1),))
+            ),
         ),
     ),
-    "simulate": Call(
-        ilmek.simulate,
+    "forward_dynamics": Call(
+        ilmek.forward_dynamics,
         (Other(four_bar()), Other(INERTIAS, wrong=WRONG_INERTIAS), Quantity(0.05, "s", 1.0)),
         dict(
             position=angle(),
             speed=Quantity(10.0, "rad/s"),
-            drive=Other(lambda *_: 0.1, True, (5.0,)),
+            drive=Other(lambda *_: 0.1, True, (5.0, {"rocker": lambda *_: 0.1})),
             loads=Other((GRAVITY,), wrong=(GRAVITY, (3,))),
+            joint_frictions=Other(
+                (ilmek.PinFriction("B", 0.0, 0.1, 1e-4),), wrong=((GRAVITY,), (ilmek.PinFriction("x", 0.01, 0.1),))
+            ),
             flywheel=Quantity(0.01, "kg*m^2"),
             every=Quantity(0.01, "s"),
         ),
+    ),
+    "MotorDrive": Call(
+        ilmek.MotorDrive,
+        (Quantity(2.0, "N*m"),),
+        dict(
+            speed=Quantity(30.0, "rad/s"),
+            slip=Quantity(0.1, ""),
+            inertia=Quantity(0.01, "kg*m^2"),
+            sharp=Other(True, wrong=(3, "yes")),
+        ),
+    ),
+    "PinFriction": Call(
+        ilmek.PinFriction,
+        (FreeText("B"), length(0.01)),
+        dict(coefficient=Quantity(0.1, ""), drag=Quantity(0.1, "N*m*s")),
+    ),
+    "SlideFriction": Call(
+        ilmek.SlideFriction,
+        (FreeText("line"), length(0.1)),
+        dict(coefficient=Quantity(0.1, ""), drag=Quantity(0.1, "N*s/m")),
     ),
     "OwnMachine": Call(
         ilmek.OwnMachine,
@@ -349,7 +390,7 @@ CALLS: dict[str, Call] = {
             inertias=Other(INERTIAS, wrong=WRONG_INERTIAS[1:]),
             gravity=PointOf(-9.81j, "m/s^2"),
             loads=Other((NamedLoad("weight", GRAVITY),), wrong=(GRAVITY, (GRAVITY,))),
-            frictions=Other((PinFriction("B", 0.01, 0.1),), wrong=((1,),)),
+            frictions=Other((ilmek.PinFriction("B", 0.01, 0.1),), wrong=((1,),)),
             members=Other({}, wrong=({"rocker": 1},)),
             pins=Other({}, wrong=({"B": 1},)),
             motions=Other({}, wrong=({"crank": 1},)),
@@ -568,7 +609,7 @@ CALLS: dict[str, Call] = {
             locked=Other({}, wrong=NO_LOCKED),
             inertias=Other(INERTIAS, wrong=WRONG_INERTIAS[1:]),
             loads=Other((GRAVITY,), wrong=(GRAVITY, (3,), ilmek.Gravity)),
-            joint_frictions=Other((PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,),)),
+            joint_frictions=Other((ilmek.PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,),)),
             speed=Quantity(10.0, "rad/s"),
         ),
     ),
@@ -685,13 +726,16 @@ CALLS: dict[str, Call] = {
     "Report[name]": Call(lambda name: report()[name], (Named("prime_radius"),)),
     "reproduce": Call(ilmek.reproduce, (Named("beat-up"),), dict(progress=Other(ilmek.Progress())), long=True),
     "units": Call(ilmek.units.parse_quantity, (FreeText("60mm"), FreeText("m"))),
+    "PlateCam.response": Call(
+        lambda follower, speed: cam().response(follower, speed),
+        (Other(one_mass(2.0, 2e5, 0.05), wrong=(3.0,)), Quantity(15.0, "rad/s", 16.0)),
+    ),
     "Motion.point": Call(lambda body, point: motion().point(body, point), (Named("rocker"), Named("E"))),
     "Motion.angle": Call(lambda body: motion().angle(body), (Named("rocker"),)),
     "Motion.omega": Call(lambda body: motion().omega(body), (Named("rocker"),)),
     "Motion.alpha": Call(lambda body: motion().alpha(body), (Named("rocker"),)),
-    "Motion.jerk": Call(lambda body: motion().jerk(body), (Named("rocker"),)),
+    "Motion[point].jerk": Call(lambda point: motion()[point].jerk, (Named("rocker.E"),)),
     "Motion.origin": Call(lambda body: motion().origin(body), (Named("rocker"),)),
-    "Motion.point_jerk": Call(lambda body, point: motion().point_jerk(body, point), (Named("rocker"), Named("E"))),
     "Motion.pose": Call(lambda sample: motion().pose(sample), (Count(3),)),
     "Forces.pin": Call(lambda name, on: forces().pin(name, on), (Named("B"), Named("rocker"))),
     "Forces.effort": Call(lambda name: forces().effort(name), (Named("crank"),)),

@@ -18,11 +18,12 @@ def calendars(*shifts: Shift, weekday: int = 0) -> tuple[Calendar, Calendar]:
 
 
 def small_factory(jobs: int, looms: int, *, seed: int, tight: float = 0.5, same: bool = True) -> Factory:
-    """A factory of a seed: looms of two shifts, one attended, and of one shift; setups, releases, scarce yarn.
+    """A factory of a seed: looms of two shifts, one attended, and of one shift, some with a
+    carpet on them; setups, releases, scarce yarn.
 
     tight  days between due dates in proportion to the work
     """
-    rng = random.Random(seed)
+    rng, on = random.Random(seed), random.Random(-seed - 1)
     own = calendars(DAY_SHIFT, LATE_SHIFT), calendars(DAY_SHIFT)
     made = tuple(
         Loom(
@@ -33,6 +34,7 @@ def small_factory(jobs: int, looms: int, *, seed: int, tight: float = 0.5, same:
             dressing_same=120 if same else 480,
             doffing=rng.choice((0, 60)),
             available=rng.choice((0, 1440)),
+            setup=on.choice((-1, 0, 1)) if same else -1,
         )
         for index in range(looms)
     )

@@ -229,9 +229,9 @@ def test_it_is_compiled_judged_and_swept() -> None:
     assert (batch.status == motion.status).all()
     good = motion.status == Status.OK
     for body in LIFT.moving:
-        for name in ("direction", "omega", "alpha", "origin", "acceleration_of_origin"):
-            assert getattr(batch, name)(body)[good] == pytest.approx(
-                getattr(motion, name)(body)[good], rel=1e-9, abs=1e-11
+        for name in ("direction", "omega", "alpha", "position", "acceleration"):
+            assert getattr(batch[body], name)[good] == pytest.approx(
+                getattr(motion[body], name)[good], rel=1e-9, abs=1e-11
             )
     longer = {("boom", "C"): np.array([0.4, 0.42]) + 0.2j}
     swept = sweep(planned, longer, np.linspace(0.5, 0.9, 9), bodies=["boom"], points=[("boom", "tip")])

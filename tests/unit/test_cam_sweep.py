@@ -9,7 +9,7 @@ from benchmarks.cam_sweep import requirements, sweep
 from ilmek.cams import limits
 from ilmek.cams.contact import FollowerLoad
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import PlateCam
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.errors import ParameterError

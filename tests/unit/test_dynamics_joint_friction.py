@@ -8,7 +8,6 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.joint_friction import PinFriction, SlideFriction
 from ilmek.dynamics.loads import Gravity, PointForce, Torque
-from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
@@ -147,17 +146,6 @@ def test_a_journal_takes_mu_r_F_omega() -> None:
     forces = inverse(motion, {"rotor": Inertia(50.0, 0j, 1.0)}, (Gravity(-9.81j),), rubbing)
     np.testing.assert_allclose(forces.effort("rotor"), -0.1 * 0.02 * 50 * 9.81 - 0.003 * 30, rtol=1e-12)
     np.testing.assert_allclose(forces.frictions["O"], 0.1 * 0.02 * 50 * 9.81 + 0.003 * 30, rtol=1e-12)
-
-
-@pytest.mark.parametrize("size", [1e-4, 0.3, 5.0, 1e4])
-def test_the_limit_of_a_pin_changes_with_the_size_of_its_force(size: float) -> None:
-    friction = PinFriction("O", radius=0.02, coefficient=0.15)
-    joint = JointPoses(name="O", on="rotor", by=GROUND, at=np.zeros(2, dtype=complex), line=None, tooth=None)
-    force, change = size * np.array([3 + 4j, -1j]), np.array([1 - 2j, 2 + 1j])
-    step, none = 1e-5 * size, np.zeros(2)
-    ends = [friction.limit(joint, ForceAndMoment(force + sign * step * change, none)) for sign in (1, -1)]
-    found = friction.limit_change(joint, ForceAndMoment(force, none), ForceAndMoment(change, none))
-    np.testing.assert_allclose(found, np.subtract(*ends) / (2 * step), rtol=1e-6)
 
 
 def test_friction_turns_round_with_its_joint_and_has_a_limit_on_either_side() -> None:

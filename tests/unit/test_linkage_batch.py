@@ -122,8 +122,8 @@ def apart(ours: Motion, theirs: Motion) -> float:
     """The worst difference of any body's motion, of the field's largest value."""
     worst = 0.0
     for body in ours.plan.mechanism.moving:
-        for field in ("origin", "direction", "omega", "alpha", "velocity_of_origin", "acceleration_of_origin"):
-            one, other = (getattr(motion, field)(body) for motion in (ours, theirs))
+        for field in ("position", "direction", "omega", "alpha", "velocity", "acceleration"):
+            one, other = (getattr(motion[body], field) for motion in (ours, theirs))
             worst = max(worst, float(np.abs(one - other).max()) / max(1.0, float(np.abs(other).max())))
     return worst
 

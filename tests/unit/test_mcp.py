@@ -14,20 +14,15 @@ from ilmek.errors import IlmekError
 EXAMPLES = Path(__file__).parents[2] / "examples"
 OPENING = {"protocolVersion": "2025-06-18", "capabilities": {}, "clientInfo": {"name": "test", "version": "1"}}
 TURKISH = ((1, 3), (1, -2), (-1, -2), (-1, 2), (3, 2), (3, -2), (1, -2), (1, 3))
+PRESS = (EXAMPLES / "slider_crank_press.toml").read_text(encoding="utf-8")
 CALLS: dict[str, dict[str, Any]] = {
     "machines": {},
     "parameters": {"name": "cam"},
     "design": {"name": "cam", "settings": {"lift": "30mm"}},
-    "judge": {"path": "quick_return.toml"},
-    "run": {"machine": "quick_return.toml", "speed": "60rpm"},
-    "crank_rocker": {"swing": "30deg", "ground": "300mm"},
-    "path_four_bars": {"points": [[0.1, 0.0], [0.08, 0.02], [0.05, 0.01], [0.07, -0.01]], "count": 1},
-    "motion_four_bars": {"points": [[0, 0], [0.025, 0.015], [0.03, 0.001]], "angles": [0.17, 0.05, -0.43]},
-    "knot": {
-        "points": [
-            [0.001 * x, 0.001 * y] for x, y in ((1, 3), (1, -2), (-1, -2), (-1, 2), (3, 2), (3, -2), (1, -2), (1, 3))
-        ]
-    },
+    "study": {"target": "cam", "vary": {"lift": "20mm, 30mm"}, "record": ["prime_radius"]},
+    "judge": {"mechanism": "quick_return.toml"},
+    "run": {"mechanism": "slider_crank_press.toml", "values": {"stroke": "50mm"}, "speed": "60rpm"},
+    "knot": {"points": [[0.001 * x, 0.001 * y] for x, y in TURKISH]},
     "cyclogram": {"name": "weaver"},
 }
 """A call of each tool that needs no programme."""
@@ -52,17 +47,18 @@ def test_a_session(tmp_path: Path) -> None:
         request(1, "initialize", **OPENING),
         {"jsonrpc": "2.0", "method": "notifications/initialized"},
         request(2, "tools/list"),
-        request(3, "tools/call", name="crank_rocker", arguments={"swing": "30deg"}),
-        request(4, "tools/call", name="crank_rocker", arguments={"swing": "30"}),
+        request(3, "tools/call", name="design", arguments={"name": "cam", "settings": {"lift": "30mm"}}),
+        request(4, "tools/call", name="design", arguments={"name": "cam", "settings": {"lift": "30"}}),
         request(5, "nothing"),
         "rubbish",
     )
     assert [reply["id"] for reply in replies] == [1, 2, 3, 4, 5, None]
     assert replies[0]["result"]["protocolVersion"] == OPENING["protocolVersion"]
     assert [tool["name"] for tool in replies[1]["result"]["tools"]] == list(TOOLS)
-    assert json.loads(replies[2]["result"]["content"][0]["text"])["ok"] is True
+    assert json.loads(replies[2]["result"]["content"][0]["text"])["holds"] is True
     (content,) = replies[3]["result"]["content"]
-    assert content["text"] == "swing of the crank-rocker: 30 has no unit; write 30deg"
+    assert content["text"].startswith("lift=30000 mm is out of bounds")
+    assert "did you mean 30mm" in content["text"]
     assert replies[3]["result"]["isError"] is True
     assert [reply["error"]["code"] for reply in replies[4:]] == [-32601, -32700]
 
@@ -76,9 +72,14 @@ def test_at_most_twelve_tools_each_with_a_schema() -> None:
 def test_an_answer_is_json_with_a_verdict(name: str) -> None:
     answer = call_tool(EXAMPLES, name, CALLS[name])
     assert json.loads(json.dumps(answer, default=float))["results"]
-    if name in ("design", "run", "cyclogram"):
-        assert answer["ok"] == all(check["ok"] for check in answer["checks"])
+    if name in ("design", "study", "run", "cyclogram"):
+        assert answer["holds"] == all(check["ok"] for check in answer["checks"])
         assert set(answer["results"]) <= set(answer["units"])
+
+
+def test_a_mechanism_is_a_file_or_its_text() -> None:
+    judged = [call_tool(EXAMPLES, "judge", {"mechanism": given}) for given in ("slider_crank_press.toml", PRESS)]
+    assert judged[0] == judged[1]
 
 
 def test_values_are_in_the_units_that_stand_beside_them() -> None:
@@ -92,12 +93,13 @@ def test_values_are_in_the_units_that_stand_beside_them() -> None:
 @pytest.mark.parametrize(
     ("name", "arguments"),
     [
-        ("judge", {"path": "../pyproject.toml"}),
-        ("judge", {"path": "/etc/passwd"}),
+        ("judge", {"mechanism": "../pyproject.toml"}),
+        ("judge", {"mechanism": "/etc/passwd"}),
         ("design", {"name": "../press.toml"}),
         ("cyclogram", {"name": "../cyclogram.toml"}),
+        ("weave", {"picture": "medallion.png", "out": "../carpet"}),
         ("judge", {}),
-        ("judge", {"path": "press.toml", "x": 1}),
+        ("judge", {"mechanism": "press.toml", "x": 1}),
         ("nothing", {}),
     ],
 )

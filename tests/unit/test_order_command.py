@@ -22,8 +22,11 @@ import ilmek
 from ilmek.api.carpets import read_chart
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colourways import Colourway, recoloured
-from ilmek.carpet.price_rules import WageRules
+from ilmek.carpet.construction import CarpetConstruction, construction_of
+from ilmek.carpet.price_rules import WageRules, woven_in_rows
+from ilmek.carpet.shape import ShapeParams, shaped
 from ilmek.carpet.strike_off import part_of, strike_off_window
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.cli import main
 from ilmek.errors import CarpetError, LoomError
 from ilmek.io.call_state import CallState, chart_digest, state_file, write_state
@@ -120,7 +123,7 @@ def test_the_papers_say_what_the_json_says(worked: tuple[dict[str, Any], Path]) 
         costs = [f"{cost:.2f}" for cost in one["costs"].values()]
         for text in (one["name"], f"{one['unit_price']:.2f}", f"{one['net']:.2f}", one["delivery"], *costs):
             assert text in quotation
-        for text in (one["name"], *one["yarns"], f"{one['mass']:.2f} kg", f"{one['knots']}", "30 × 40 cm"):
+        for text in (one["name"], *one["yarns"], f"{one['mass']:.2f} kg", f"{one['knots']}", "30 × 40 cm", "rectangle"):
             assert text in approval
 
 
@@ -137,6 +140,9 @@ def test_a_workshop_folder_is_enough_to_weave_from(worked: tuple[dict[str, Any],
     assert "between rows 20 and 21" in mounting
     wages = text_of(own / "wages.pdf")
     assert f"{one['wage']:.2f} EUR" in wages
+    for name in ("chart.pdf", "rows.pdf", "strike-off.pdf", "mounting.pdf", "wages.pdf"):
+        assert one["name"] in text_of(own / name)
+    assert f"# {one['name']}" in (own / "rows.txt").read_text(encoding="utf-8")
     assert "0 of 40 rows" in wages
 
 
@@ -224,7 +230,7 @@ def test_a_record_keeps_the_days_of_its_rows(tmp_path: Path, monkeypatch: pytest
     record = json.loads((out / "medallion-madder" / "record-1.json").read_text())["record"]
     assert [entry["rows"] for entry in record["rows"]] == [16, 30]
     assert one["rows_woven"] == 30
-    payments = WageRules(3.2, 1000, 3, 0.02, 0.2, 15).payments([30] * 40, 4)
+    payments = WageRules(3.2, 1000, 3, 0.02, 0.2, 15).payments([(30, 0)] * 40, 4)
     assert half_up(one["wage_due"]) == payments[0].paid + payments[1].paid
     assert "30 of 40 rows" in text_of(out / "medallion-madder" / "wages.pdf")
 
@@ -242,11 +248,42 @@ def test_rows_are_read_from_the_journal_of_a_run(tmp_path: Path) -> None:
 
 def test_payments_are_the_wage() -> None:
     rules = WageRules(9.0, 10_000, advance=0.25, rows=7)
-    payments = rules.payments([31] * 40, 5)
+    payments = rules.payments([(31, 0)] * 40, 5)
     assert [one.row for one in payments] == [7, 14, 21, 28, 35, 40]
     assert sum(one.knots for one in payments) == 1240
     assert sum(one.earned for one in payments) == rules.wage(1240, 5) == Decimal("1.12")
     assert sum(one.deducted for one in payments) == Decimal("0.28")
+
+
+def test_flat_weave_earns_its_share_of_a_knot() -> None:
+    """By hand: 4 × 25 cells at a tenth, 36 × 25 knots, 2 EUR for 100 knots; ends are paid with their rows."""
+    rules = WageRules(2.0, 100, rows=4, flat=0.1)
+    payments = rules.payments([(0, 25)] * 2 + [(25, 0)] * 36 + [(0, 25)] * 2, 5)
+    assert [str(payments[at].earned) for at in (0, 1, 9)] == ["1.10", "2.00", "1.10"]
+    assert sum(one.earned for one in payments) == Decimal("18.20") == rules.wage(900, 5, 100)
+
+
+def test_construction_is_that_of_closed_forms() -> None:
+    """A circle's edge and the two heights of a chart with kilim ends; the rows of wages are those of the cells."""
+    yarns = default_yarns()[:2]
+    stripes = np.indices((100, 100))[0] // 10 % 2
+    chart = Chart.of(stripes, yarns, "50x50cm", "20x20/dm", "symmetric")
+
+    def found_of(shape: ShapeParams) -> tuple[Chart, CarpetConstruction]:
+        made = shaped(chart, shape)
+        return made, construction_of(made, made.bill(), shape, YarnPlanParams())
+
+    _, found = found_of(ShapeParams(shape="round", pile=f"{yarns[0].name}=12mm loop"))
+    assert (found.shape, found.binding, found.ends) == ("round", "overcast", (0, 0))
+    assert found.edge == pytest.approx(math.pi * 0.5, rel=5e-3)
+    assert (0.012, True) in [(pile.height, pile.loop) for pile in found.piles]
+    assert sum(pile.knots for pile in found.piles) == pytest.approx(math.pi * 50**2, rel=5e-3)
+    made, found = found_of(ShapeParams(kilim_ends=0.05, flat_weave="31-40/11-30"))
+    assert (found.shape, found.edge, found.ends) == ("rectangle", 0, (0.05, 0.05))
+    assert found.flat == pytest.approx(0.05 * 0.10)
+    rows = np.array(woven_in_rows(made))
+    assert rows.sum(axis=0).tolist() == [100**2 - 200, 2 * 10 * 100 + 200]
+    assert rows[:10, 1].tolist() == [100] * 10
 
 
 def test_a_colourway_exchanges_yarns_all_at_once() -> None:

@@ -18,10 +18,10 @@ from ilmek.dynamics.inertia import Inertia, bar, point_mass
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.dynamics.joint_friction import SlideFriction
 from ilmek.dynamics.loads import PointForce
+from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.dynamics.own_machine import (
     ForwardTask,
     GivenMotion,
-    MotorDrive,
     NamedLoad,
     OwnMachine,
     SpeedStudy,

@@ -67,10 +67,10 @@ def test_curves_of_a_plot_differ_in_more_than_colour(made: Made) -> None:
 
 
 def test_parts_are_in_order_and_the_contents_lead_to_them(made: Made) -> None:
-    parts = ('class="contents"', 'class="answer', 'id="checks"', 'class="machine"', 'id="m1-results"', 'id="tests"')
+    parts = ('class="contents"', 'class="answer', 'class="machine"', 'id="checks"', 'id="m1-results"', 'id="tests"')
     at = [made.page.index(part) for part in parts if part in made.page]
     assert at == sorted(at)
-    assert made.page.index('id="checks"') < made.page.index("<figure")
+    assert made.page.index("<figure") < made.page.index('id="checks"')
     contents = made.page[made.page.index('class="contents"') : made.page.index("</nav>")]
     anchors = re.findall(r'href="#([^"]+)"', contents)
     places = [made.page.index(f'id="{anchor}"') for anchor in anchors]

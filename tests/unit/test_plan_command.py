@@ -29,9 +29,9 @@ RED, IVORY, NAVY = (158, 43, 37), (239, 230, 208), (27, 36, 66)
 WOOL = "name,srgb\nred,#9e2b25\nivory,#efe6d0\nnavy,#1b2442\n"
 NAMES = {
     "orders", "bound", "cost", "loom_cost", "late_cost", "gap", "currency", "status", "repeatable", "horizon", "looms",
-    "late_orders", "yarn", "yarn_price",
+    "late_orders", "yarn", "yarn_price", "begun",
 }  # fmt: skip
-ORDER_NAMES = {"name", "loom", "start", "end", "cost", "late", "due", "woven", "quantity", "carpets"}
+ORDER_NAMES = {"name", "loom", "start", "end", "cost", "late", "due", "woven", "quantity", "carpets", "moved"}
 
 
 def plan(folder: Path, *more: str) -> Result:
@@ -168,6 +168,12 @@ BAD_LOOMS = {
     "design": (("colours = 8", "colors = 8"), "line 5: unknown parameter 'colors'"),
     "neither": (('design = { width = "1.2m", colours = 8 }\n', ""), "none or of several of file, design and weavers"),
     "stops": (("doffing", 'stops = "95%"\ndoffing'), "is out of bounds; 0 to 90 %"),
+    "downtime": (("doffing", 'downtime = ["2026-12-07"]\ndoffing'), "is no begin and end; write it like"),
+    "downtime ends first": (("doffing", 'downtime = ["2026-12-07/2026-12-01"]\ndoffing'), "ends before it begins"),
+    "weaving what": (("doffing", 'weaving = { order = "two", rows = 1 }\ndoffing'), "unknown order 'two'"),
+    "weaving how far": (("doffing", 'weaving = { order = "one" }\ndoffing'), "none or of both of run and rows"),
+    "weaving past its end": (("doffing", 'weaving = { order = "one", rows = 9999 }\ndoffing'), "at most the 225"),
+    "no run": (("doffing", 'weaving = { order = "one", run = "a" }\ndoffing'), "is not there"),
     "currency": (("[[shift]]", 'currency = "TRY"\n[[shift]]'), "another currency"),
 }
 
@@ -193,6 +199,25 @@ def test_bad_looms_are_one_clear_error(tmp_path: Path, name: str) -> None:
     done = plan(written(tmp_path, looms=LOOMS.replace(old, new, 1)))
     assert done.exit_code == 2
     assert message in " ".join(done.stderr.split())
+
+
+BEGUN = 'downtime = ["2026-12-02T08:00/2026-12-02T10:00"]\nweaving = { order = "one", rows = 25, since = 2026-11-30 }\n'
+
+
+def test_what_is_on_a_loom_stays_there_at_its_own_pace(tmp_path: Path) -> None:
+    """25 of 225 rows in 8 h of Monday: 200 rows take 64 h from Tuesday 06:00 on, 90 min of doffing, 2 h of downtime."""
+    first = written(tmp_path, orders=ORDERS.replace("due", "quantity = 2\ndue"))
+    assert plan(first, "--out", str(tmp_path / "first"), "--json", str(tmp_path / "first.json")).exit_code == 0
+    written(tmp_path, (first / "orders.toml").read_text(), LOOMS.replace("doffing", BEGUN + "doffing"))
+    done = plan(first, "--now", "2026-12-01T06:00", "--against", str(tmp_path / "first.json"), "--json", "-")
+    found = json.loads(done.stdout)
+    (carpet,), (order,) = found["begun"], found["orders"]
+    # 8 days of 8 h from Tuesday on are over on Thursday of the next week; 2 h and 90 min later it is Friday, 09:30.
+    assert (carpet["rows"], carpet["of"], carpet["end"]) == (25, 225, "2026-12-11T09:30")
+    assert [(one["start"], one["same_setup"]) for one in order["carpets"]] == [("2026-12-11T09:30", True)]
+    earlier = json.loads((tmp_path / "first.json").read_text())["orders"][0]["end"]
+    moved = datetime.fromisoformat(order["end"]) - datetime.fromisoformat(earlier)
+    assert order["moved"] == moved.total_seconds() > 0
 
 
 def test_slips_that_only_make_the_plan_worse_are_noted(tmp_path: Path) -> None:
@@ -235,7 +260,7 @@ def test_a_programme_is_woven_only_by_the_loom_that_it_was_compiled_for(
     orders = ORDERS.partition("picture")[0] + 'programme = "p.ilmek"\ndue = 2026-12-18\n'
     found = json.loads(plan(written(tmp_path, orders=orders), "--json", "-").stdout)
     assert [one["name"] for one in found["reasons"]] == ["one on A: programme: compiled for this loom"]
-    monkeypatch.setattr("ilmek.jobs.plan_inputs.loom_digest", lambda _: programme.setup.loom)
+    monkeypatch.setattr("ilmek.jobs.plan_fits.loom_digest", lambda _: programme.setup.loom)
     (order,) = json.loads(plan(tmp_path, "--json", "-").stdout)["orders"]
     assert (order["loom"], order["late"]) == ("A", 0)
 

@@ -66,7 +66,7 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.solve(FOUR_BAR, 90), "90 rad.*degrees"),
         (lambda: ilmek.solve(FOUR_BAR, {"crank": np.linspace(0, 360)}), "degrees"),
         (lambda: ilmek.solve("press.toml", 0.0), "str given for a mechanism"),
-        (lambda: ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, position=90), "degrees"),
+        (lambda: ilmek.forward_dynamics(FOUR_BAR, INERTIAS, 1.0, position=90), "degrees"),
         (lambda: ilmek.rise(100, 40 * mm, "harmonic"), "write 100 \\* deg"),
         (lambda: ilmek.rise(100 * deg, 40, "harmonic"), "write 40 \\* mm"),
         (lambda: ilmek.rise(100 * deg, 40 * mm, "modified sine"), "'modified-sine'"),
@@ -97,7 +97,7 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.inverse_dynamics(moving(), INERTIAS, ilmek.Gravity(-9.81j)), "write \\[loads\\]"),
         (lambda: ilmek.inverse_dynamics(moving(), {}, [ilmek.Torque("rockr", 1)]), "did you mean 'rocker'"),
         (lambda: ilmek.inverse_dynamics(moving(), {}, [ilmek.Torque("rocker", np.ones(5))]), "each of the 13 samples"),
-        (lambda: ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, drive=5.0), "a function of time, position and speed"),
+        (lambda: ilmek.forward_dynamics(FOUR_BAR, INERTIAS, 1.0, drive=5.0), "a function of time, position and speed"),
         (lambda: ilmek.Mechanism((ilmek.Body("ground", {}),), ilmek.Pin("A", "a", "b"), ()), "write \\[joints\\]"),
         (lambda: ilmek.plate_cam(1), "programme of the cam is 1; CamProgramme"),
         (lambda: cam().programme.at(45), "45 rad.*degrees"),
@@ -121,7 +121,7 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.make_chart(3, "30x40cm", "10x10/dm"), "a int given for a picture"),
         (lambda: ilmek.make_chart(np.zeros((8, 8, 3)), "30x40cm", "10x10/dm"), "uint8"),
         (lambda: ilmek.make_chart(np.zeros((8, 8), np.uint8), "30x40cm", "10x10/dm"), "rows x columns x 3"),
-        (lambda: ilmek.write_chart("chart.txt", chart()), "one of .png, .bmp, .oxs, .pdf"),
+        (lambda: ilmek.write_chart("chart.txt", chart()), "one of .png, .bmp, .tiff, .oxs, .wif, .pdf"),
     ],
 )
 def test_slip_is_caught_with_what_was_given_and_a_guess(typed: object, message: str) -> None:
@@ -213,7 +213,7 @@ def test_forces_balance_the_power() -> None:
 
 
 def test_coasting_run_keeps_its_energy() -> None:
-    run = ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, speed=10.0)
+    run = ilmek.forward_dynamics(FOUR_BAR, INERTIAS, 1.0, speed=10.0)
     assert np.ptp(run.kinetic) < 1e-6 * run.kinetic[0]
 
 
@@ -354,7 +354,7 @@ def test_public_records_compare_and_print() -> None:
         motion,
         motion.plan,
         ilmek.inverse_dynamics(motion, INERTIAS),
-        ilmek.simulate(FOUR_BAR, INERTIAS, 0.1, speed=10.0),
+        ilmek.forward_dynamics(FOUR_BAR, INERTIAS, 0.1, speed=10.0),
         ilmek.read_mechanism(ROOT / "examples" / "jansen_leg.toml"),
         cam(),
         chart(),

@@ -12,7 +12,7 @@ import pytest
 from default_machines import default_report
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import PlateCam
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme, fall, rise
 from ilmek.elements.bearings import equivalent_load, find_bearing
 from ilmek.elements.screws import trapezoidal

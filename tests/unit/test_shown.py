@@ -65,7 +65,7 @@ SHOWN: dict[str, Callable[[], object]] = {
     "judged": lambda: ilmek.judged(FOUR_BAR),
     "motion": motion,
     "forces": lambda: ilmek.inverse_dynamics(motion(), {"rocker": ilmek.bar(0, 0.23, mass=0.4)}),
-    "run": lambda: ilmek.simulate(FOUR_BAR, {"crank": ilmek.bar(0, 0.06, mass=0.4)}, 0.1, speed=10),
+    "run": lambda: ilmek.forward_dynamics(FOUR_BAR, {"crank": ilmek.bar(0, 0.06, mass=0.4)}, 0.1, speed=10),
     "programme": lambda: cam().programme,
     "cam": cam,
     "plot": lambda: motion().plot("rocker angle", "coupler angle"),

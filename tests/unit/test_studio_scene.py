@@ -140,8 +140,8 @@ def test_the_page_of_a_loom_has_its_scene_and_the_client(project: Path, monkeypa
     data = gzip.decompress(base64.b64decode(found.data))
     assert data == scene(LoomRequest("machines/loom.toml"), Context(str(project))).body
     page = loom_page(LoomPage("Loom", "1 m", "report.html", space=found))
-    assert all(text in page for text in (found.client, found.data, 'id="show-loom"'))
-    assert "show-loom" not in loom_page(LoomPage("Loom", "1 m", "report.html"))
+    assert all(text in page for text in (found.client, found.data, 'id="loom-in-space"'))
+    assert "loom-in-space" not in loom_page(LoomPage("Loom", "1 m", "report.html"))
 
 
 def test_a_hand_loom_is_shown_with_the_change_of_its_shed(project: Path) -> None:

@@ -62,6 +62,14 @@ def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     assert json.loads(design.stdout)["results"]["drive_torque_max"] == found["best"]["results"]["drive_torque_max"]
 
 
+def test_listed_values_are_taken_once_each_and_stand_in_the_table() -> None:
+    words = ("--vary", "law=cycloidal, modified-sine", "--vary", "lift=20mm, 30mm", "--record", "prime_radius")
+    found = CliRunner().invoke(main, ["study", "cam", *words, "--csv", "-"])
+    rows = [row.split(",")[:2] for row in found.stdout.splitlines()]
+    pairs = [[law, lift] for law in ("cycloidal", "modified-sine") for lift in ("0.02", "0.03")]
+    assert rows == [["law", "lift"], *pairs]
+
+
 def test_a_study_without_a_design_that_holds_ends_with_3() -> None:
     found = call(*SWING, *GOAL, "--samples", "2", "--hold", "drive_torque_max <= 0.1 N*m")
     assert found.exit_code == 3

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +17,10 @@ from ilmek.io.tufting_file import read_tufting, write_tufting
 from ilmek.machines.tufting_machine import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.units import inch, rpm
-from ilmek.weaving.tufting.programme import UNIT, TuftGrid, tuft_programme
+from ilmek.weaving.tufting.programme import BARE, UNIT, TuftGrid, tuft_programme
 from ilmek.weaving.tufting.twin import tufted_face
 
-GRID = TuftGrid(gauge=4e-3, stitch=3e-3, height=8e-3, hidden=0.5e-3, backing=0.5e-3, back=1.0)
+GRID = TuftGrid(gauge=4e-3, stitch=3e-3, height=8e-3, low=8e-3, hidden=0.5e-3, backing=0.5e-3, back=1.0)
 
 
 def labels_of(rows: int, columns: int, colours: int) -> np.ndarray:
@@ -63,7 +64,7 @@ def tufted(text: str) -> tuple[dict[tuple[int, int], list[tuple[int, float]]], d
     seen: dict[tuple[int, int], list[tuple[int, float]]] = {}
     for needle, own in loops.items():
         for x, y, height in own[:-1]:
-            if height > pile / 2:
+            if height > values["low"] / 2:
                 place = math.floor(y / values["stitch"] + 1e-9), round(x / values["gauge"])
                 seen.setdefault(place, []).append((needle % threads, height))
     return seen, yarn
@@ -89,6 +90,28 @@ def test_another_reader_tufts_every_place_in_its_colour(tmp_path: Path, colours:
     assert (face.number == 1).all()
     assert face.yarn * 1e3 == pytest.approx([yarn[number] for number in range(colours)], abs=1e-6)
     assert face.hidden == pytest.approx(GRID.hidden if colours > 1 and not by_needle else 0, abs=1e-5)
+
+
+@pytest.mark.parametrize("by_needle", [False, True])
+def test_another_reader_finds_the_heights_of_a_map_and_nothing_seen_outside_of_a_shape(
+    tmp_path: Path, *, by_needle: bool
+) -> None:
+    labels = labels_of(13, 17, 3)
+    y, x = np.mgrid[0:13, 0:17]
+    labels[np.hypot((y - 6) / 6.5, (x - 8) / 8.5) > 1] = BARE
+    heights = np.random.default_rng(4).choice([5e-3, 6.5e-3, 8e-3], labels.shape)
+    programme = tuft_programme(labels, 3, replace(GRID, low=5e-3), heights=heights, by_needle=by_needle)
+    write_tufting(tmp_path / "tufting.txt", programme, [(f"yarn {number}", "#123456") for number in range(3)])
+    seen, _ = tufted((tmp_path / "tufting.txt").read_text())
+    assert {(12 - row, column) for row, column in seen} == set(map(tuple, np.argwhere(labels != BARE).tolist()))
+    for (row, column), loops in seen.items():
+        ((colour, height),) = loops
+        assert colour == labels[12 - row, column]
+        assert height == pytest.approx(1e3 * heights[12 - row, column], abs=0.006)
+    face = tufted_face(read_tufting(tmp_path / "tufting.txt"))
+    assert (face.colours == labels).all()
+    assert np.nanmax(abs(face.heights - heights)) < 1e-5
+    assert (np.isnan(face.heights) == (labels == BARE)).all()
 
 
 def test_a_feed_that_is_a_stroke_late_tufts_another_picture() -> None:

@@ -13,7 +13,8 @@ from link_plates import link_plate
 from processes import printed, python
 
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import PlateCam, area
+from ilmek.cams.limits import area
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.errors import OutputError, ParameterError

@@ -4,28 +4,27 @@ from __future__ import annotations  # so that `help` shows the aliases
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ilmek.arguments import Arguments, Point, Quantities, Quantity
 from ilmek.arrays import RealField
-from ilmek.dynamics import forward, inverse
-from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
+from ilmek.dynamics import inverse
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
 from ilmek.io.mechanism_file import MechanismFile
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.joints import body_point
-from ilmek.linkage.model import Input, Mechanism, Rotation
+from ilmek.linkage.joints import GROUND, body_point
+from ilmek.linkage.model import Body, Displacement, Input, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
 from ilmek.synthesis.result import FourBarSolution
@@ -107,6 +106,57 @@ def slider_crank(
     )
 
 
+def mechanism(
+    bodies: Mapping[str, Mapping[str, Point]],
+    inputs: str | Input | Sequence[str | Input],
+    *,
+    slides: Sequence[Slide] = (),
+    branches: Mapping[str, int] = MappingProxyType({}),
+    name: str = "mechanism",
+) -> Mechanism:
+    """A mechanism from the points of its bodies [m]: a point that two bodies name is their pin, or the slide so named.
+
+    bodies    body -> points by name, in the body's frame [m]; one body is "ground"
+    inputs    a body that turns about its only pin on the ground, or a slide; else `Rotation`, `Displacement`
+    slides    `Slide` records      branches  as of `Mechanism`
+
+    Raises MechanismError for a point of three bodies, a body without one pin on the ground, and as `Mechanism`.
+
+    >>> bodies = {"ground": {"O": 0, "C": -0.2j}, "crank": {"O": 0, "A": 0.1}, "block": {"A": 0, "slot": 0}}
+    >>> bodies["lever"] = {"C": 0, "slot": 0}
+    >>> shaper = mechanism(bodies, "crank", slides=[Slide("slot", "block", "lever")], branches={"slot": +1})
+    >>> [joint.name for joint in shaper.joints], shaper.inputs
+    (['O', 'C', 'A', 'slot'], (Rotation(body='crank', about='O'),))
+    """
+    given = Arguments("a mechanism", MechanismError)
+    tables = given.mapping("bodies", bodies, lambda body, points: given.mapping(body, points, given.near_point))
+    sliding = given.sequence("slides", slides, Slide)
+    holders: dict[str, list[str]] = {}
+    for body, points in tables.items():
+        for point in points:
+            holders.setdefault(point, []).append(body)
+    pins = []
+    for point in [point for point in holders if point not in {slide.name for slide in sliding}]:
+        if len(holders[point]) > 2:
+            raise given.error(f"point {point!r} is of {', '.join(holders[point])}", allowed="two bodies at a joint")
+        if len(holders[point]) == 2:
+            pins.append(Pin(point, *holders[point]))
+
+    def driven(entry: str | Input) -> Input:
+        if not isinstance(entry, str):
+            return entry
+        if entry in {slide.name for slide in sliding}:
+            return Displacement(entry)
+        about = [pin.name for pin in pins if set(pin.bodies) == {GROUND, entry}]
+        if len(about) != 1:
+            raise given.error(f"{len(about)} pins join {entry!r} and the ground", do="give a Rotation, a Displacement")
+        return Rotation(entry, about[0])
+
+    named = [inputs] if isinstance(inputs, str | Rotation | Displacement) else inputs
+    drives = tuple(driven(entry) for entry in given.sequence("inputs", named, (str, Rotation, Displacement)))
+    return Mechanism(tuple(Body(*entry) for entry in tables.items()), (*pins, *sliding), drives, branches, name)
+
+
 def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:
     """Points by body and name [m], of the bodies of a mechanism alone."""
     tables: dict[str, dict[str, complex]] = {}
@@ -118,15 +168,21 @@ def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> 
     return tables
 
 
-def read_mechanism(path: str | Path) -> MechanismFile:
+def read_mechanism(path: str | Path, *, values: Mapping[str, str] = MappingProxyType({})) -> MechanismFile:
     """The `mechanism` and the `inertias` of a .toml or .json file; `solve` takes the result as it is.
 
-    Raises MechanismError with file, line and key.
+    values  take the place of entries of the file's table `values`, as texts with units
+    Raises MechanismError with file, line and key, and for a value that the file does not have.
 
     >>> read_mechanism("examples/jansen_leg.toml").mechanism.name
     'Jansen leg'
+    >>> press = read_mechanism("examples/slider_crank_press.toml", values={"stroke": "80mm"})
+    >>> round(press.mechanism.point("crank.A").real, 3)
+    0.04
     """
-    return mechanism_file.read_mechanism(Arguments("a mechanism", MechanismError).path("path", path))
+    given = Arguments("a mechanism", MechanismError)
+    entries = given.mapping("values", values, given.text)
+    return mechanism_file.read_mechanism(given.path("path", path), entries)
 
 
 def write_mechanism(
@@ -244,58 +300,6 @@ def as_inertias(inertias: object) -> dict[str, Inertia]:
     """Inertias of a call by body. Raises MechanismError for another object."""
     given = Arguments("", MechanismError)
     return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
-
-
-def simulate(
-    mechanism: Solvable,
-    inertias: Mapping[str, Inertia],
-    duration: Quantity,
-    *,
-    position: Quantity = 0.0,
-    speed: Quantity = 0.0,
-    drive: Drive | None = None,
-    loads: Sequence[Load] = (),
-    flywheel: Quantity = 0.0,
-    every: Quantity | None = None,
-) -> ForwardRun:
-    """Run of a mechanism with one input from a state, under its drive and loads (forward dynamics).
-
-    inertias  body -> inertia; a body that is not listed is massless
-    duration  [s]
-    position, speed  of the input at the start [rad, rad/s; m, m/s]
-    drive     effort on the input [N m; N] as a function of time, position and speed; default: the machine coasts
-    loads     loads such as `Gravity`; default: none
-    flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
-    every     time between the reported samples [s]; default: the steps of the integrator
-
-    Raises MechanismError for several inputs, no moving mass, a start at which the mechanism does not close, and values
-    that are not finite.
-
-    >>> from ilmek.dynamics import bar
-    >>> masses = {"crank": bar(0, 0.060, mass=0.1), "rocker": bar(0, 0.230, mass=0.4)}
-    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), masses, "0.5s", speed="100rpm")
-    >>> run.end.reason, bool(run.energy_error < 1e-6)
-    ('its duration was reached', True)
-    """
-    planned = planned_of(mechanism)
-    given = Arguments("a run", MechanismError)
-    turning = not planned.mechanism.inputs or isinstance(planned.mechanism.inputs[0], Rotation)
-    unit = "rad" if turning else "m"
-    start = given.number("position", position, unit)
-    if turning:
-        given.turning("position", position, ANY_ANGLE)
-    if drive is not None:
-        given.function("drive", drive, "time, position and speed")
-    masses, acting = as_inertias(inertias), as_loads(given, loads)
-    heavy = given.not_negative("flywheel", flywheel, "kg*m^2" if turning else "kg")
-    reduced = reduce(planned, masses, acting, flywheel=heavy)
-    return forward.forward(
-        reduced,
-        ForwardState(start, given.number("speed", speed, f"{unit}/s")),
-        given.number("duration", duration, "s"),
-        drive=drive,
-        every=None if every is None else given.number("every", every, "s"),
-    )
 
 
 def planned_of(mechanism: Solvable) -> Plan:

@@ -3,6 +3,7 @@ from ilmek.cams.conjugate import ConjugatePair as ConjugatePair
 from ilmek.cams.flat import FlatCam as FlatCam
 from ilmek.cams.follower_dynamics import steady_response as steady_response
 from ilmek.cams.follower_model import FollowerModel as FollowerModel
+from ilmek.cams.follower_model import one_mass as one_mass
 from ilmek.cams.laws import Law as Law
 from ilmek.cams.laws import law_of as law_of
 from ilmek.cams.limits import concave_radius_min as concave_radius_min
@@ -13,7 +14,6 @@ from ilmek.cams.oscillating import OscillatingCam as OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam as OscillatingFlatCam
 from ilmek.cams.plate import PlateCam as PlateCam
 from ilmek.cams.programme import CamProgramme as CamProgramme
-from ilmek.cams.programme import FollowerMotion as FollowerMotion
 from ilmek.cams.programme import all_jumps as all_jumps
 from ilmek.cams.programme import joined as joined
 from ilmek.cams.segments import CamSegment as CamSegment

@@ -29,6 +29,7 @@ from ilmek.cams.laws import Law
 from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, jumps
 from ilmek.errors import ParameterError
 from ilmek.records import record
+from ilmek.report.framed import Framed
 
 __all__ = [
     "FollowerModel",
@@ -52,13 +53,14 @@ _APART = 1e-10
 
 
 @record
-class Response:
+class Response(Framed):
     """Response of a follower.
 
     at            time in a rise [s], or cam angle in a turn [rad], ascending, (points,)
     cam           displacement given by the cam [m], (points,)
     displacement, velocity, acceleration   of the masses from the cam outwards [m, m/s, m/s^2], (masses, points)
     contact       force on the cam [N], (points,); below 0 the follower leaves the cam
+    over          heading of `at`
     """
 
     at: FloatArray
@@ -67,6 +69,16 @@ class Response:
     velocity: FloatArray
     acceleration: FloatArray
     contact: FloatArray
+    over: str
+
+    def table(self) -> dict[str, FloatArray]:
+        """Columns by heading: displacement of the cam, motion of each mass from the cam outwards, force on the cam."""
+        columns = {self.over: self.at, "cam displacement [m]": self.cam}
+        rows = zip(self.displacement, self.velocity, self.acceleration, strict=True)
+        for number, motion in enumerate(rows, 1):
+            units = ("displacement [m]", "velocity [m/s]", "acceleration [m/s^2]")
+            columns |= {f"mass {number} {unit}": values for unit, values in zip(units, motion, strict=True)}
+        return {**columns, "contact [N]": self.contact}
 
     @property
     def lag(self) -> FloatArray:
@@ -264,4 +276,5 @@ def _response(
     push = stage.stiffness * z[0] + stage.damping * speed * z[n]
     forces = follower.stiffness @ z[:n] + follower.damping @ (speed * z[n:]) + np.outer(follower.return_rates, s)
     acceleration = -forces / follower.masses[:, None]
-    return Response(edges * shown, s, displacement, velocity, acceleration, follower.preload - push)
+    over = "cam angle [rad]" if begin is _repeating else "time [s]"
+    return Response(edges * shown, s, displacement, velocity, acceleration, follower.preload - push, over)

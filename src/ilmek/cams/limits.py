@@ -11,20 +11,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray
-from ilmek.cams.plate import PlateCam
 from ilmek.cams.trace import CamRole
 from ilmek.num.piecewise import Extremum, infimum, integral, supremum
-
-__all__ = [
-    "Part",
-    "PlateCam",
-    "area",
-    "concave_radius_min",
-    "convex_radius_min",
-    "largest_cutter",
-    "pressure_angle_max",
-    "undercut",
-]
 
 Part: TypeAlias = Literal["turn", "rise", "return"]
 """The whole turn, only the rises, or only the returns."""

@@ -9,19 +9,22 @@ from typing import ClassVar
 
 import numpy as np
 
-from ilmek.arguments import Arguments, Quantities
+from ilmek.arguments import Arguments, Quantities, Quantity
 from ilmek.arrays import FloatArray
 from ilmek.cams import profile
-from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.follower_dynamics import Response, steady_response
+from ilmek.cams.follower_model import FollowerModel
+from ilmek.cams.limits import undercut
+from ilmek.cams.programme import CamProgramme, FollowerMotion, turn_of
 from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.records import value_record
-from ilmek.report.shown import Shown
+from ilmek.report.framed import Framed
 from ilmek.units import format_quantity
 
 
 @value_record
-class PlateCam(CamCurves, Shown):
+class PlateCam(CamCurves, Framed):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 
     prime_radius   distance of the roller's centre from the axis where the displacement is 0
@@ -30,8 +33,8 @@ class PlateCam(CamCurves, Shown):
 
     >>> from ilmek import cam_programme, dwell, fall, rise
     >>> cam = PlateCam(cam_programme(rise("90deg", 0.04), fall("90deg", 0.04), dwell("180deg")), 0.1)
-    >>> complex(cam.surface(0.0)), float(cam.pressure_angle("180deg"))
-    ((0.1+0j), 0.0)
+    >>> complex(cam.surface(0.0)), float(cam.pressure_angle("180deg")), cam.undercut
+    ((0.1+0j), 0.0, False)
     """
 
     programme: CamProgramme
@@ -75,3 +78,25 @@ class PlateCam(CamCurves, Shown):
         """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""
         at = self.programme.at(angle)
         return np.asarray(profile.curvature(at.s, at.ds, at.dds, self.prime_radius, self.offset))
+
+    @property
+    def undercut(self) -> bool:
+        """Whether the roller cuts away surface that an earlier or later pose needs."""
+        return undercut(self)
+
+    def response(self, follower: FollowerModel, speed: Quantity) -> Response:
+        """Periodic response of a follower over a turn at a speed of the cam [rad/s]; see `steady_response`."""
+        given = Arguments("a cam's response")
+        model = given.record("follower", follower, FollowerModel)
+        return steady_response(model, self.programme, given.number("speed", speed, "rad/s"))
+
+    def table(self) -> dict[str, FloatArray]:
+        """Columns over a turn, the programme's knots among them: surface, pitch curve, pressure angle, curvature."""
+        angle = turn_of(self.programme)
+        curves = {"surface": self.surface(angle), "pitch": self.pitch(angle)}
+        points = {f"{name} {axis} [m]": part(curve) for name, curve in curves.items() for axis, part in _AXES}
+        others = {"pressure angle [rad]": self.pressure_angle(angle), "pitch curvature [1/m]": self.curvature(angle)}
+        return {"cam angle [rad]": angle, **points, **others}
+
+
+_AXES = (("x", np.real), ("y", np.imag))

@@ -25,7 +25,7 @@ from ilmek.arrays import FloatArray
 from ilmek.cams.segments import CamSegment, OpenSegment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
 from ilmek.records import value_record
-from ilmek.report.shown import Shown
+from ilmek.report.framed import Framed
 from ilmek.units import deg, format_quantity
 
 __all__ = [
@@ -88,7 +88,7 @@ class Jump:
 
 
 @value_record
-class CamProgramme(Shown):
+class CamProgramme(Framed):
     """Segments that fill one turn and return to the initial displacement.
 
     start     cam angle [rad] where the first segment begins
@@ -181,6 +181,12 @@ class CamProgramme(Shown):
             rows[0] += self.revolves * turns
         return FollowerMotion(*rows)
 
+    def table(self) -> dict[str, FloatArray]:
+        """Columns over a turn, the knots among them: displacement and its derivatives by the cam angle."""
+        angle = turn_of(self)
+        units = ("displacement [m]", "velocity [m/rad]", "acceleration [m/rad^2]", "jerk [m/rad^3]")
+        return {"cam angle [rad]": angle, **dict(zip(units, self.motion(angle), strict=True))}
+
     def _ascending(self, phase: FloatArray) -> FloatArray:
         """Rows s, s', s'', s''' at ascending phases, (4, phases): each segment has one slice."""
         edges, bases = self.edges, self.bases
@@ -197,6 +203,11 @@ class CamProgramme(Shown):
                 here[0], here[1], here[2], here[3] = segment.motion(u)
             here[0] += base
         return rows
+
+
+def turn_of(programme: CamProgramme) -> FloatArray:
+    """Cam angles [rad] over a turn from the start: 361 even ones, and the knots."""
+    return np.unique(np.concatenate((programme.start + np.linspace(0.0, TURN, 361), programme.knots)))
 
 
 def cam_angles(angle: Quantities) -> FloatArray:

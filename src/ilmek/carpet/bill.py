@@ -9,14 +9,14 @@ included; a reserve is bought beyond it.
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
 
-from ilmek.carpet.chart import Chart
-from ilmek.carpet.creel import names_to_buy
+from ilmek.carpet.carving import carved_masses
 from ilmek.carpet.cut_edge import cut_share, edge_length, finished_area
 from ilmek.carpet.dye_lots import rows_of_new_lots, whole
 from ilmek.carpet.ground import GroundParams, GroundYarn, binding_tape, binding_yarn, ground_yarns, selvedge_yarn
-from ilmek.carpet.pile import PileParams, knot_length, of_kind
+from ilmek.carpet.pile import PileParams, knot_length, of_kind, of_yarn
 from ilmek.carpet.usual_pile import MassBand, published_band
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import OVERCAST, TAPE, YarnPlanParams, parse_hank, write_count
@@ -24,17 +24,22 @@ from ilmek.elements.knot_kinds import FORMS
 from ilmek.errors import CarpetError, did_you_mean
 from ilmek.report.framed import RecordTable
 
+if TYPE_CHECKING:
+    from ilmek.carpet.chart import Chart
+
 
 @dataclass(frozen=True, slots=True)
 class YarnNeed:
     """A line of the bill: yarn and use (pile, warp, weft, end, selvedge, binding), knots (0 but for the pile).
 
+    material      of the yarn, of MATERIALS
     bought        name under which it is bought; a yarn on several positions of the creel has one, as in its list
     length, mass  needed, waste included [m], [kg]
     price         of what is to buy, reserve included; None where no price per kg is known
     count         metric count and ply, like 5/2; "" for the ground
     kept          mass that stays in the carpet [kg]
     to_buy        mass with the reserve [kg]           hanks     to buy, whole ones
+    carved        of the mass, what is cut away along carved lines [kg]
     lots          dye lots for the mass to buy         lot_rows  rows, from 1 at the lower edge, where a new lot begins
     """
 
@@ -51,6 +56,8 @@ class YarnNeed:
     lots: int = 1
     lot_rows: tuple[int, ...] = ()
     bought: str = ""
+    material: str = ""
+    carved: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +117,7 @@ class YarnBill:
         return max(self.pile, key=lambda need: need.knots)
 
 
-def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundParams | None = None) -> YarnBill:
+def yarn_bill(chart: "Chart", plan: YarnPlanParams | None = None, ground: GroundParams | None = None) -> YarnBill:
     """The yarn bill of a chart.
 
     plan    default: that of the class
@@ -118,7 +125,6 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
     """
     plan = plan or YarnPlanParams()
     ground = plan.ground(ground)
-    pile = plan.pile(chart.quality)
     most = chart.yarns[max(chart.used, key=chart.tied.of)]
     threads: tuple[GroundYarn, ...] = ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground)
     edge = edge_length(chart)
@@ -132,21 +138,46 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
             threads = (*threads, binding_yarn(*hem))
         elif plan.binding == TAPE:
             threads = (*threads, binding_tape(edge, plan.binding_width))
-    names = names_to_buy(chart)
+    names, carved = names_to_buy(chart), carved_masses(chart)
     needs = tuple(
-        replace(_pile_need(chart, index, plan, pile, ground.yarns.pile), bought=names[index]) for index in chart.used
+        replace(_pile_need(chart, index, plan, ground.yarns.pile, carved[index]), bought=names[index])
+        for index in chart.used
     )
     lines = tuple(_ground_need(thread, most, plan) for thread in threads if thread.length > 0)
     return YarnBill(needs, lines, finished_area(chart), plan.currency, published_band(chart.quality), edge)
 
 
-def _cut(thread: GroundYarn, chart: Chart, ground: GroundParams) -> GroundYarn:
+def names_to_buy(chart: "Chart") -> tuple[str, ...]:
+    """The name under which each yarn of a chart is bought: that in its list, which it has on its first position.
+
+    >>> from ilmek import Chart, read_yarns
+    >>> rose, ivory = read_yarns()[:2]
+    >>> twice = replace(rose, name=f"{rose.name} (creel 2)")
+    >>> names_to_buy(Chart([[0, 1, 2]] * 2, (rose, ivory, twice), "6x4cm", "5x5/dm", "symmetric")) == (
+    ...     rose.name, ivory.name, rose.name)
+    True
+    """
+    yarns = chart.yarns
+    places = sorted(range(len(yarns)), key=lambda place: chart.positions[place])
+    firsts = (next(yarns[one] for one in places if _is_same(yarns[one], yarn)) for yarn in yarns)
+    return tuple(first.name for first in firsts)
+
+
+_BESIDES_NAME = attrgetter(*(part.name for part in fields(Yarn) if part.name != "name"))
+
+
+def _is_same(one: Yarn, other: Yarn) -> bool:
+    """Whether two yarns of a chart are one yarn of the list."""
+    return one == other or (one.number is not None and _BESIDES_NAME(one) == _BESIDES_NAME(other))
+
+
+def _cut(thread: GroundYarn, chart: "Chart", ground: GroundParams) -> GroundYarn:
     """A yarn of the ground of which the part outside of the shape is cut away, both ends and fringes with it."""
     share = {"end": 0.0, "warp": 1 - (ground.loom_waste + 2 * ground.fringe) / ground.warp_length(chart.size.length)}
     return replace(thread, kept=share.get(thread.use, thread.kept) * (1 - cut_share(chart)))
 
 
-def _binding_yarn(chart: Chart, name: str | None, most: Yarn) -> Yarn:
+def _binding_yarn(chart: "Chart", name: str | None, most: Yarn) -> Yarn:
     """The yarn of the binding. Raises CarpetError for an unknown one."""
     if name is None:
         return most
@@ -158,9 +189,10 @@ def _binding_yarn(chart: Chart, name: str | None, most: Yarn) -> Yarn:
     return found
 
 
-def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> float:
+def pile_length(chart: "Chart", yarn: int, pile: PileParams | None = None) -> float:
     """Length of a yarn in all knots of a chart [m]: whole, half and jufti ones, by the height of their pile."""
-    density, usual, length = chart.yarns[yarn].linear_density, pile or PileParams(), 0.0
+    density, length = chart.yarns[yarn].linear_density, 0.0
+    usual = of_yarn(pile or PileParams(), chart.yarns[yarn])
     for kind, tied in chart.tied_by_kind:
         own = of_kind(usual, kind)
         for form, knots in zip(FORMS, (of[yarn] for of in tied), strict=True):
@@ -168,16 +200,18 @@ def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> floa
     return length
 
 
-def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, pile: PileParams, material: str) -> YarnNeed:
+def _pile_need(chart: "Chart", index: int, plan: YarnPlanParams, material: str, carved: float) -> YarnNeed:
     """The line of a pile yarn; of its knots both ends are cut, but those of a loop."""
-    yarn, knots, length = chart.yarns[index], chart.tied.of(index), pile_length(chart, index, pile)
+    yarn, knots, pile = chart.yarns[index], chart.tied.of(index), plan.pile(chart.quality)
+    length = pile_length(chart, index, pile)
     cut = sum(tied.of(index) for kind, tied in chart.tied_by_kind if not kind.loop)
-    waste = 2 * pile.calibration * pile.cut_waste * cut
+    material = yarn.material or material
+    waste = 2 * pile.calibration * pile.cut_waste * cut + carved / yarn.linear_density
     thread = GroundYarn(yarn.name, "pile", material, length, length * yarn.linear_density, max(0.0, 1 - waste / length))
     rate = plan.price("pile", material) if yarn.price is None else yarn.price
     need = _need(thread, plan, rate, yarn, knots)
     rows = rows_of_new_lots(chart.knots, index, chart.counts[index] * plan.lot / need.to_buy, need.lots)
-    return replace(need, lot_rows=rows)
+    return replace(need, lot_rows=rows, carved=carved)
 
 
 def _ground_need(thread: GroundYarn, most: Yarn, plan: YarnPlanParams) -> YarnNeed:
@@ -209,4 +243,5 @@ def _need(
         whole(share),
         max(1, whole(to_buy / plan.lot)),
         bought=thread.name,
+        material=thread.material,
     )

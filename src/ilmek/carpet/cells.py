@@ -7,6 +7,7 @@ index of its kind. A kind is a knot, with the height of its pile, cut or loop; p
 A cell without a knot has the code NO_KNOT among a chart's knots, where the others have the index of their yarn.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -18,7 +19,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
 from ilmek.records import record, value_record
 from ilmek.sentences import Sentence
-from ilmek.units import counted, format_quantity, mm
+from ilmek.units import counted, deg, format_quantity, mm
 
 KNOT, PLAIN, OUTSIDE = "knot", "plain", "outside"
 """What a cell is woven as."""
@@ -31,6 +32,9 @@ GROUND_YARN = Yarn(Sentence("cell.no-knot"), GROUND_COLOUR, (83.7, 1.9, 14.2))
 
 TALLEST = 100 * mm
 """Bound of the height of a pile."""
+
+CARVED = (10 * deg, 150 * deg)
+"""Bounds of the angle between the sides of a carved line: of scissors held steep and flat; assumed by this project."""
 
 
 @value_record
@@ -71,11 +75,46 @@ PILE, PLAIN_GROUND, CUT_AWAY = CellKind(KNOT), CellKind(PLAIN, PLAIN), CellKind(
 """The kinds of a carpet without a pile map."""
 
 
+@value_record
+class Carving:
+    """Lines that are cut into the pile where two colours meet: a groove with the section of a V.
+
+    depth  from the tips of the pile [m]      angle  between the sides [rad]
+    yarns  names of those whose borders are carved; (): all
+    Raises CarpetError for a depth that no pile has, and for an angle out of CARVED.
+    """
+
+    depth: float
+    angle: float
+    yarns: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "yarns", tuple(self.yarns))
+        if not 0.0 < self.depth < TALLEST:
+            allowed = f"above 0 mm, below {format_quantity(TALLEST, 'mm')}"
+            raise CarpetError(f"lines carved {format_quantity(self.depth, 'mm')} deep", allowed=allowed)
+        least, most = CARVED
+        if not least <= self.angle <= most:
+            allowed = f"{format_quantity(least, 'deg')} to {format_quantity(most, 'deg')}"
+            raise CarpetError(f"lines carved at {format_quantity(self.angle, 'deg')}", allowed=allowed)
+
+    @property
+    def half_width(self) -> float:
+        """Of the groove at the tips of the pile [m]:  depth tan(angle/2)."""
+        return self.depth * math.tan(self.angle / 2)
+
+    @property
+    def side(self) -> float:
+        """Section of what is cut on each side of a line [m²]:  depth half_width / 2."""
+        return self.depth * self.half_width / 2
+
+
 @record
 class CellMap:
     """The map of a chart's cells; what is given is checked, and converted where nothing is lost.
 
-    index  in `kinds` of each cell, (rows, columns); row 0 is the top, as in `Chart.knots`
+    index    in `kinds` of each cell, (rows, columns); row 0 is the top, as in `Chart.knots`
+    carving  lines in the pile of the knots; None: none
     Raises CarpetError for an index of no kind, two kinds of one name, and for a map without a knot.
 
     >>> CellMap([[1, 0], [0, 0]], (PILE, CUT_AWAY)).number(OUTSIDE)
@@ -84,6 +123,7 @@ class CellMap:
 
     index: Indices
     kinds: tuple[CellKind, ...]
+    carving: Carving | None = None
 
     def __post_init__(self) -> None:
         kinds = tuple(self.kinds)
@@ -125,7 +165,7 @@ class CellMap:
     def woven(self, where: BoolArray, kind: CellKind) -> "CellMap":
         """The map with another kind in some cells, (rows, columns)."""
         kinds = self.kinds if kind in self.kinds else (*self.kinds, kind)
-        return CellMap(np.where(where, np.uint8(kinds.index(kind)), self.index), kinds)
+        return replace(self, index=np.where(where, np.uint8(kinds.index(kind)), self.index), kinds=kinds)
 
     def on_grid(
         self, rows: int, columns: int, shown: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
@@ -144,9 +184,11 @@ class CellMap:
         return replace(self, index=self.index[np.ix_(row.clip(0, height - 1), column.clip(0, width - 1))])
 
     def merged(self) -> "CellMap | None":
-        """The map with the kinds that a cell has, in their order; None where all cells are knots of the usual pile."""
+        """The map with the kinds that a cell has, in their order; None where all cells are knots of the usual
+        pile, without carved lines.
+        """
         used = [kind for kind, count in zip(self.kinds, self.counts, strict=True) if count]
-        if used == [PILE]:
+        if used == [PILE] and self.carving is None:
             return None
         moved = np.array([used.index(kind) if kind in used else 0 for kind in self.kinds], dtype=np.uint8)
         return replace(self, index=recoded(self.index, moved), kinds=tuple(used))

@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import Indices, Rgb
+from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, CellMap, require_knots
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES, NO_KNOT, recoded
@@ -15,6 +15,7 @@ from ilmek.carpet.design import require_grid
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.sizes import CarpetSize, carpet_size
+from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_list
@@ -23,10 +24,6 @@ from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
 from ilmek.report.shown import Shown
-
-if TYPE_CHECKING:
-    from ilmek.carpet.bill import YarnBill
-    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
@@ -100,15 +97,13 @@ class Chart(Shown):
         return cls(knots, with_counts(yarn_list(yarns), knotted, kind), carpet_size(size), knotted, kind)
 
     @property
-    def statistics(self) -> "ChartStatistics":
+    def statistics(self) -> ChartStatistics:
         """Changes of yarn by row, the hardest rows, small patches."""
-        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
-        return made
+        return chart_statistics(self)
 
-    def bill(self) -> "YarnBill":
+    def bill(self) -> YarnBill:
         """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
-        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
-        return made
+        return yarn_bill(self)
 
     @property
     def rows(self) -> int:

@@ -4,8 +4,7 @@ The designer of an indexed picture numbers the yarns: index 2 is the yarn on pos
 chart by colours alone would merge two positions that look alike, and would sort the others by the yarn list.
 """
 
-from dataclasses import fields, replace
-from operator import attrgetter
+from dataclasses import replace
 
 import numpy as np
 
@@ -56,30 +55,6 @@ def in_creel_order(chart: Chart, indices: Indices, obstacle: str = "") -> Chart 
     rank[used] = np.arange(len(used))
     made = rearranged(chart, order, recoded(indices, rank))
     return replace(made, yarns=_named_apart(made.yarns, creel), creel=creel)
-
-
-def names_to_buy(chart: Chart) -> tuple[str, ...]:
-    """The name under which each yarn of a chart is bought: that in its list, which it has on its first position.
-
-    >>> from ilmek import read_yarns
-    >>> rose, ivory = read_yarns()[:2]
-    >>> twice = replace(rose, name=f"{rose.name} (creel 2)")
-    >>> names_to_buy(Chart([[0, 1, 2]] * 2, (rose, ivory, twice), "6x4cm", "5x5/dm", "symmetric")) == (
-    ...     rose.name, ivory.name, rose.name)
-    True
-    """
-    yarns = chart.yarns
-    places = sorted(range(len(yarns)), key=lambda place: chart.positions[place])
-    firsts = (next(yarns[one] for one in places if _is_same(yarns[one], yarn)) for yarn in yarns)
-    return tuple(first.name for first in firsts)
-
-
-_BESIDES_NAME = attrgetter(*(part.name for part in fields(Yarn) if part.name != "name"))
-
-
-def _is_same(one: Yarn, other: Yarn) -> bool:
-    """Whether two yarns of a chart are one yarn of the list."""
-    return one == other or (one.number is not None and _BESIDES_NAME(one) == _BESIDES_NAME(other))
 
 
 def _named_apart(yarns: tuple[Yarn, ...], creel: tuple[int, ...]) -> tuple[Yarn, ...]:

@@ -1,24 +1,28 @@
 """The edge along which a shaped carpet is cut out of its ground: area and outline, from the cells of its chart."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from scipy import ndimage
 
 from ilmek.carpet.cells import OUTSIDE
-from ilmek.carpet.chart import Chart
 from ilmek.plane.level_sets import level_polygons
 
+if TYPE_CHECKING:
+    from ilmek.carpet.chart import Chart
 
-def cut_share(chart: Chart) -> float:
+
+def cut_share(chart: "Chart") -> float:
     """Share of the woven carpet that is cut away [-]."""
     return 0.0 if chart.cells is None else chart.cells.number(OUTSIDE) / chart.knots.size
 
 
-def finished_area(chart: Chart) -> float:
+def finished_area(chart: "Chart") -> float:
     """Area of the finished carpet [m²]: all cells but those that are cut away."""
     return chart.size.area * (1 - cut_share(chart))
 
 
-def edge_length(chart: Chart) -> float:
+def edge_length(chart: "Chart") -> float:
     """Length of the carpet's outline [m], to be bound: around all that is not cut away, 0 for a rectangle.
 
     The outline of the cells is stepped. Its length is that of the level 1/2 of their smoothed map, a Gaussian of two

@@ -15,11 +15,12 @@ KWH = 3.6e6
 
 
 class EmissionFactor(NamedTuple):
-    """kg CO2e a unit, and where it is from."""
+    """kg CO2e a unit, where it is from, and whether that is an assumption."""
 
     factor: float
     unit: str
     source: str
+    assumed: bool = False
 
 
 FACTORS: Mapping[str, EmissionFactor] = MappingProxyType(
@@ -31,6 +32,7 @@ FACTORS: Mapping[str, EmissionFactor] = MappingProxyType(
             "kg",
             "assumption, confirmed by no open source; for raw silk compare Astudillo et al., Life cycle assessment "
             "of Indian silk, J. Cleaner Production, 2014",
+            assumed=True,
         ),
         "electricity": EmissionFactor(
             0.481, "kWh", "mean of the world in 2023: Ember, Global Electricity Review, 2024"

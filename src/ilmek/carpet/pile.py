@@ -27,6 +27,7 @@ from dataclasses import dataclass, replace
 
 from ilmek.carpet.cells import CellKind
 from ilmek.carpet.quality import Quality
+from ilmek.carpet.yarn import Yarn
 from ilmek.elements.carpet_yarns import YarnProperties, usual_warp
 from ilmek.elements.knot_kinds import parse_knot, wrap_of
 from ilmek.elements.yarns import MATERIALS, WOOL, yarn_diameter
@@ -79,6 +80,14 @@ def knot_length(
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = leg_length(warp, yarn, pile)
     return pile.calibration * (2 * leg + wrap_of(kind, form, quality.warp_pitch, (warp + yarn) / 2))
+
+
+def of_yarn(pile: PileParams, yarn: Yarn) -> PileParams:
+    """The pile of a yarn: of its own material, where it has one."""
+    if yarn.material is None:
+        return pile
+    fibre = MATERIALS[yarn.material]
+    return replace(pile, fibre_density=fibre.density, packing=fibre.packing)
 
 
 def of_kind(pile: PileParams, kind: CellKind) -> PileParams:

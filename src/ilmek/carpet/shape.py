@@ -20,19 +20,22 @@ from types import MappingProxyType
 import numpy as np
 from scipy import ndimage
 
-from ilmek.arrays import BoolArray, FloatArray
-from ilmek.carpet.cells import CUT_AWAY, OUTSIDE, PILE, PLAIN_GROUND, CellKind, all_knots
+from ilmek.arrays import BoolArray, FloatArray, Indices
+from ilmek.carpet.cells import CARVED, CUT_AWAY, OUTSIDE, PILE, PLAIN_GROUND, TALLEST, Carving, CellKind, all_knots
 from ilmek.carpet.chart import Chart, used_first
 from ilmek.errors import CarpetError, ParameterError, did_you_mean, shortened
 from ilmek.params import Params, kind
-from ilmek.units import counted, parse_quantity
+from ilmek.units import counted, deg, mm, parse_quantity
 
-RECTANGLE, PICTURE = "rectangle", "picture"
+RECTANGLE, PICTURE, ALL = "rectangle", "picture", "all"
+MOST_LEVELS = 16
+"""Largest number of piles of a map: neighbours differ by 17 of 255 codes of grey."""
+
 LEAST_PART = 3
 """Least width and height of a part of a shape, in knots: a narrower one does not hold in the ground."""
 
 _PLAIN = re.compile(r"(\d{1,6})(?:-(\d{1,6}))?(?:/(\d{1,6})-(\d{1,6}))?")
-_PILE = re.compile(r"(.+?)=(?:([0-9.]+ ?[a-zµ]+)(?: +(loop|cut))?|(loop|cut))")
+_PILE = re.compile(r"([0-9.]+ ?[a-zµ]+)(?: +(loop|cut))?|(loop|cut)")
 
 Inside = Callable[[FloatArray, FloatArray, float, float], BoolArray]
 """Whether points are inside of a shape: x across and y up from its middle, width and length [m]."""
@@ -89,6 +92,21 @@ class ShapeParams(Params):
     pile: str | None = kind.text(
         None, doc='height of the pile by yarn, and loops: "Red=6mm, Blue=4mm loop, Ivory=loop"; default: one cut pile'
     )
+    pile_map: str | None = kind.text(
+        None, doc="picture of the pile: its greys are those of pile_levels; transparent parts leave the pile as it is"
+    )
+    pile_levels: str = kind.text(
+        "6mm, 12mm", doc='piles of pile_map from black to white, at equal steps of grey, like "4mm, 8mm loop, 12mm"'
+    )
+    carve: str | None = kind.text(
+        None, doc='lines cut into the pile where colours meet: round yarns like "Red, Blue", or all; default: none'
+    )
+    carve_depth: float = kind.length(
+        4 * mm, above=0.0, below=TALLEST, doc="depth of carved lines, from the tips of the pile"
+    )
+    carve_angle: float = kind.angle(
+        60 * deg, unit="deg", at_least=CARVED[0], at_most=CARVED[1], doc="angle between the sides of a carved line"
+    )
 
     @property
     def named(self) -> bool:
@@ -114,6 +132,14 @@ class ShapeParams(Params):
             raise ParameterError(f"shape {shortened(self.file)!r} is unknown", allowed=allowed, do=hint)
         plain_areas(self.flat_weave)
         pile_kinds(self.pile)
+        levels = self.levels
+        if not 2 <= len(levels) <= MOST_LEVELS:
+            raise ParameterError(f"pile_levels: {counted(len(levels), 'level')}", allowed=f"2 to {MOST_LEVELS}")
+
+    @property
+    def levels(self) -> tuple[CellKind, ...]:
+        """The piles of the map, from black to white."""
+        return tuple(pile_kind(part.strip()) for part in self.pile_levels.split(","))
 
 
 def plain_areas(text: str | None) -> tuple[tuple[int, int, int | None, int | None], ...]:
@@ -142,21 +168,35 @@ def pile_kinds(text: str | None) -> dict[str, CellKind]:
     """
     kinds: dict[str, CellKind] = {}
     for part in [] if text is None else text.split(","):
-        found = _PILE.fullmatch(part.strip())
-        if found is None or found[1].strip() in kinds:
-            given = f"pile {shortened(part.strip())!r} cannot be read" if found is None else f"two piles of {found[1]}"
+        name, _, pile = (piece.strip() for piece in part.rpartition("="))
+        if not name or name in kinds:
+            given = f"two piles of {name}" if name else f"pile {shortened(pile)!r} has no yarn"
             raise ParameterError(given, allowed="a yarn of the list, its height, and loop", do="write Red=6mm")
-        height = None if found[2] is None else parse_quantity(found[2], "mm")
-        words = " ".join(filter(None, (found[2], found[3] or found[4])))
-        pile = CellKind(f"pile {words}", height=height, loop="loop" in (found[3], found[4]))
-        kinds[found[1].strip()] = pile if pile.loop or height is not None else PILE
+        kinds[name] = pile_kind(pile)
     return kinds
 
 
-def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None) -> Chart:
+def pile_kind(text: str) -> CellKind:
+    """The kind of the knots of a pile: its height, loop or cut. Raises ParameterError.
+
+    >>> str(pile_kind("6mm loop"))
+    'pile 6mm loop, 6 mm, loop'
+    """
+    found = _PILE.fullmatch(text)
+    if found is None:
+        given = f"pile {shortened(text)!r} cannot be read"
+        raise ParameterError(given, allowed="a height, loop or both", do="write Red=6mm, or Red=6mm loop")
+    height = None if found[1] is None else parse_quantity(found[1], "mm")
+    words = " ".join(filter(None, (found[1], found[2] or found[3])))
+    pile = CellKind(f"pile {words}", height=height, loop="loop" in (found[2], found[3]))
+    return pile if pile.loop or height is not None else PILE
+
+
+def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None, levels: Indices | None = None) -> Chart:
     """The chart with the cells that its shape, flat weave and pile give; what its own cells are already stays.
 
     outline  of a shape without an equation: which cells are inside, (rows, columns)
+    levels   the pile of each cell as an index in `params.levels`, (rows, columns); NO_KNOT: left as it is
     Raises CarpetError for a round carpet of unequal sides, a part of a shape narrower than LEAST_PART knots, rows and
     knots that the carpet does not have, and a pile of an unknown yarn.
     """
@@ -166,19 +206,39 @@ def shaped(chart: Chart, params: ShapeParams, outline: BoolArray | None = None) 
         require_wide(inside)
         cells = cells.woven(~inside, CUT_AWAY)
     plain = _plain(chart, params)
+    if not (cells.tied & ~plain).any():
+        do = "leave rows with knots: --flat-weave with fewer rows, or --kilim-ends"
+        raise CarpetError("flat weave takes every knot of the carpet", allowed="at least one knot", do=do)
     if plain.any():
         cells = cells.woven(plain & ~cells.are(OUTSIDE), PLAIN_GROUND)
     for name, pile in pile_kinds(params.pile).items():
-        names = [yarn.name for yarn in chart.yarns]
-        index = next((at for at, one in enumerate(names) if one.casefold() == name.casefold()), None)
-        if index is None:
-            hint = did_you_mean(name, names)
-            raise CarpetError(f"the pile of {name!r}: no yarn has this name", allowed=", ".join(names), do=hint)
-        cells = cells.woven((chart.knots == index) & cells.tied, pile)
+        cells = cells.woven((chart.knots == _index_of(name, chart, f"the pile of {name!r}")) & cells.tied, pile)
+    if levels is not None:
+        for level, pile in enumerate(params.levels):
+            cells = cells.woven((levels == level) & cells.tied, pile)
+    if params.carve is not None:
+        cells = replace(cells, carving=_carving(params, chart))
     merged = cells.merged()
     made = chart if merged is None else replace(chart, cells=merged)
     made = with_ends(made, round(params.kilim_ends * chart.quality.along))
     return made if made is chart or made.creel is not None else used_first(made)
+
+
+def _index_of(name: str, chart: Chart, noun: str) -> int:
+    """The index of the yarn of a name. Raises CarpetError, which begins with the noun."""
+    names = [yarn.name for yarn in chart.yarns]
+    index = next((at for at, one in enumerate(names) if one.casefold() == name.casefold()), None)
+    if index is None:
+        hint = did_you_mean(name, names)
+        raise CarpetError(f"{noun}: no yarn has this name", allowed=", ".join(names), do=hint)
+    return index
+
+
+def _carving(params: ShapeParams, chart: Chart) -> Carving:
+    """The carved lines. Raises CarpetError for an unknown yarn."""
+    named = [] if str(params.carve).strip().casefold() == ALL else str(params.carve).split(",")
+    indices = [_index_of(name.strip(), chart, f"lines carved round {name.strip()!r}") for name in named]
+    return Carving(params.carve_depth, params.carve_angle, tuple(chart.yarns[index].name for index in indices))
 
 
 def with_ends(chart: Chart, rows: int) -> Chart:

@@ -4,16 +4,18 @@ small patches by their size.
 Rows are counted as they are woven and printed: row 1 is the lower edge of the picture.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import Indices, Int64
-from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import bands
 from ilmek.carpet.patches import patch_sizes
 from ilmek.records import record
+
+if TYPE_CHECKING:
+    from ilmek.carpet.chart import Chart
 
 HARDEST = 5
 """Number of the hardest rows."""
@@ -53,7 +55,7 @@ class ChartStatistics:
         return int(self.changes[number - 1])
 
 
-def chart_statistics(chart: Chart) -> ChartStatistics:
+def chart_statistics(chart: "Chart") -> ChartStatistics:
     """The statistics of a chart."""
     changes = changes_by_row(chart.knots)
     return ChartStatistics(changes, hardest_rows(changes), patch_groups(chart.knots))

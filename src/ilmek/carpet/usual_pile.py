@@ -24,7 +24,7 @@ from decimal import Context
 
 import numpy as np
 
-from ilmek.carpet.pile import coarsest_count
+from ilmek.carpet.pile import PileParams, coarsest_count, of_yarn
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
@@ -67,13 +67,15 @@ def usual_pile_height(quality: Quality) -> float:
     return min(LEAST_PILE + _GROWTH / quality.knots_per_area, GREATEST_PILE)
 
 
-def usual_count(quality: Quality, knot: str) -> float:
+def usual_count(quality: Quality, knot: str, pile: PileParams | None = None) -> float:
     """Metric count Nm of each of the two strands of the usual pile yarn, to two digits, at least 1.
+
+    pile  whose fibre and packing the yarn has; default: wool
 
     >>> usual_count(Quality(250.0, 250.0), "symmetric"), usual_count(Quality(1000.0, 1000.0), "symmetric")
     (1.3, 21.0)
     """
-    fills = coarsest_count(quality, USUAL_PLY) / USUAL_FILL[parse_knot(knot)]
+    fills = coarsest_count(quality, USUAL_PLY, pile) / USUAL_FILL[parse_knot(knot)]
     return float(Context(prec=2).create_decimal_from_float(max(fills, _COARSEST)))
 
 
@@ -93,11 +95,12 @@ def with_counts(
 
     given  metric count and ply of all yarns, in place of their own
     """
-    usual = given or (usual_count(quality, knot), USUAL_PLY)
-    return tuple(
-        replace(yarn, metric_count=usual[0], ply=usual[1]) if given or yarn.metric_count is None else yarn
-        for yarn in yarns
-    )
+
+    def counted(yarn: Yarn) -> Yarn:
+        count, ply = given or (usual_count(quality, knot, of_yarn(PileParams(), yarn)), USUAL_PLY)
+        return replace(yarn, metric_count=count, ply=ply)
+
+    return tuple(counted(yarn) if given or yarn.metric_count is None else yarn for yarn in yarns)
 
 
 def published_band(quality: Quality) -> MassBand | None:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.picture_points import hex_colour
+from ilmek.elements.yarns import MATERIALS
 from ilmek.errors import YarnError
 from ilmek.records import shown_value
 from ilmek.units import counted, real_number
@@ -30,8 +31,9 @@ class Yarn:
     ply           number of strands
     price         per kg; None: unknown
     number        in its list, 1 to MOST_YARNS, to which its symbol on every chart belongs; None: of no list
-    Raises YarnError for a colour that is none, a count or a ply that is not above 0, a price below 0, and for a number
-    out of its range.
+    material      of MATERIALS, as of silk among wool; None: that of the carpet's pile
+    Raises YarnError for a colour that is none, a count or a ply that is not above 0, a price below 0, a number out of
+    its range, and an unknown material.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Yarn:
     ply: int = 1
     price: float | None = None
     number: int | None = None
+    material: str | None = None
 
     def __post_init__(self) -> None:
         codes = [code for code in _three(self.srgb) if code == round(code) and 0 <= code <= 255]
@@ -54,6 +57,7 @@ class Yarn:
             f"ply {self.ply!r}: a whole number above 0": ply is None or ply < 1 or ply != round(ply),
             f"number {self.number!r}: 1 to {MOST_YARNS}": self.number is not None
             and (type(self.number) is not int or not 1 <= self.number <= MOST_YARNS),
+            f"material {self.material!r}: {', '.join(MATERIALS)}": self.material not in (None, *MATERIALS),
             f"price {self.price!r}: 0 or above": self.price is not None and (price is None or price < 0),
         }
         for fault in (fault for fault, holds in faults.items() if holds):

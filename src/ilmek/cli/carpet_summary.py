@@ -1,6 +1,7 @@
 """The summary of a carpet that `weave` and `chart` print: how its picture was read, and its yarn."""
 
 from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.carving import carved_length
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.tally import SMALL_PATCH
 from ilmek.cli.terminal import show_table
@@ -15,6 +16,7 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
         ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
         ("knots", knots_in_words(chart)),
         *([] if chart.cells is None else [("cells", cells_in_words(charted))]),
+        *carving_pair(charted),
         ("read as", f"{made.kind}: {made.reason}"),
         ("fit", made.fit.words),
         ("changes", changes_in_words(chart)),
@@ -39,6 +41,19 @@ def cells_in_words(charted: ChartResult) -> str:
     kinds = ", ".join(f"{kind} {count:,}" for kind, count in zip(cells.kinds, cells.counts, strict=True))
     bound = f"; {format_quantity(bill.area, 'm^2')}, edge of {format_quantity(bill.edge, 'm')} to bind"
     return kinds + (bound if bill.edge else "")
+
+
+def carving_pair(charted: ChartResult) -> list[tuple[str, str]]:
+    """Length and groove of the carved lines, and the yarn that is cut away; none for a carpet without them."""
+    cells = charted.chart.cells
+    carving = None if cells is None else cells.carving
+    if carving is None:
+        return []
+    length, mass = carved_length(charted.chart), sum(need.carved for need in charted.bill.pile)
+    groove = f"{format_quantity(carving.depth, 'mm')} deep at {format_quantity(carving.angle, 'deg')}"
+    return [
+        ("carving", f"{format_quantity(length, 'm', 3)} of lines, {groove}; {format_quantity(mass, 'g', 3)} cut away")
+    ]
 
 
 def overlay_in_words(chart: Chart) -> str:

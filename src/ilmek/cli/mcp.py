@@ -4,7 +4,6 @@ import json
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -12,6 +11,7 @@ from ilmek import __version__
 from ilmek.api.tools import TOOLS, call_tool
 from ilmek.errors import IlmekError
 from ilmek.io.json_file import json_text
+from ilmek.records import JsonObject
 
 PROTOCOL = "2025-06-18"
 """Version of the protocol [modelcontextprotocol.io, specification 2025-06-18]."""
@@ -42,7 +42,7 @@ def command(folder: Path) -> int:
     return 0
 
 
-def answered(folder: Path, line: str) -> dict[str, Any] | None:
+def answered(folder: Path, line: str) -> JsonObject | None:
     """The reply to a message; None for a notification."""
     try:
         message = json.loads(line)
@@ -56,17 +56,17 @@ def answered(folder: Path, line: str) -> dict[str, Any] | None:
     return _reply(number, METHODS[method](folder, given))
 
 
-def _initialized(_folder: Path, _given: dict[str, Any]) -> dict[str, Any]:
+def _initialized(_folder: Path, _given: JsonObject) -> JsonObject:
     facts = {"name": "ilmek", "version": __version__}
     return {"protocolVersion": PROTOCOL, "capabilities": {"tools": {}}, "serverInfo": facts}
 
 
-def _listed(_folder: Path, _given: dict[str, Any]) -> dict[str, Any]:
+def _listed(_folder: Path, _given: JsonObject) -> JsonObject:
     tools = [{"name": name, "description": tool.doc, "inputSchema": tool.schema()} for name, tool in TOOLS.items()]
     return {"tools": tools}
 
 
-def _called(folder: Path, given: dict[str, Any]) -> dict[str, Any]:
+def _called(folder: Path, given: JsonObject) -> JsonObject:
     try:
         text, failed = json_text(call_tool(folder, str(given.get("name")), given.get("arguments") or {})), False
     except IlmekError as error:
@@ -74,11 +74,11 @@ def _called(folder: Path, given: dict[str, Any]) -> dict[str, Any]:
     return {"content": [{"type": "text", "text": text}], "isError": failed}
 
 
-def _reply(number: object, result: object = None, error: object = None) -> dict[str, Any]:
+def _reply(number: object, result: object = None, error: object = None) -> JsonObject:
     return {"jsonrpc": "2.0", "id": number, **({"result": result} if error is None else {"error": error})}
 
 
-METHODS: Mapping[str, Callable[[Path, dict[str, Any]], dict[str, Any]]] = {
+METHODS: Mapping[str, Callable[[Path, JsonObject], JsonObject]] = {
     "initialize": _initialized,
     "ping": lambda _folder, _given: {},
     "tools/list": _listed,

@@ -93,7 +93,7 @@ def _run(text: str) -> tuple[str, Path]:
 def _show(done: "OrderResult") -> None:
     """Print each carpet with its price and delivery, what would save late ones, and the sums."""
     from ilmek.jobs.ordering.work import order_results
-    from ilmek.jobs.plan import plan_results
+    from ilmek.jobs.plan_results import plan_results
     from ilmek.jobs.plan_tables import measure_table
 
     found = order_results(done)

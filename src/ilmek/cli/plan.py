@@ -33,28 +33,42 @@ Limits: file 250 kB; 500 carpets, 50 looms, 50 shifts.
     help="Looms, shifts, yarn in stock.",
 )
 @file_option("--out", "DIR", "Write page, picture, plan and purchase into a folder.")
+@text_option("--now", "TIME", "Begin of the plan, like 2026-12-03T10:00, for --looms with what they weave.")
+@file_option("--against", "PLAN.json", "An earlier plan, to compare the ends of the orders with.")
 @text_option("--time-limit", "TIME", "Time to plan in, like 30s; default: 10s for ten carpets, 60s for a hundred.")
 @force_option
 @json_option
 def command(
-    orders: Path, *, looms: Path, out: Path | None, time_limit: str | None, force: bool, json_to: str | None
+    orders: Path,
+    *,
+    looms: Path,
+    out: Path | None,
+    now: str | None,
+    against: Path | None,
+    time_limit: str | None,
+    force: bool,
+    json_to: str | None,
 ) -> int:
     """Plan which loom weaves which carpet of ORDERS when, at the least cost of looms and delays.
 
     Needs the extra planning. Each plan is verified before it is reported, with a bound that no plan costs less than.
-    Late orders are named with what would save them, and the yarn to buy for all of them together.
+    Late orders are named with what would save them, and the yarn to buy for all of them together. A carpet that the
+    file of the looms has on a loom stays there, at the pace of its journal.
 
     Ends with 3 where an order is late or cannot be woven.
     """
-    from ilmek.jobs.plan import plan_factory, plan_json, read_time_limit
+    from ilmek.io.plan_file import read_instant
+    from ilmek.jobs.plan import plan_factory, read_time_limit
     from ilmek.jobs.plan_files import write_plan
+    from ilmek.jobs.plan_results import plan_json
 
     limit = None if time_limit is None else read_time_limit(time_limit)
-    inputs = {"ORDERS": orders, "--looms": looms}
+    begin = None if now is None else read_instant("--now", now)
+    inputs = {"ORDERS": orders, "--looms": looms, **({} if against is None else {"--against": against})}
     with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
         if out is not None:
             call.outputs.expect_folder(out, "--out")
-        done = plan_factory(orders, looms, time_limit=limit, progress=call.progress)
+        done = plan_factory(orders, looms, time_limit=limit, now=begin, against=against, progress=call.progress)
         files = [] if out is None else write_plan(done, out, call.outputs)
         call.give_json(lambda: plan_json(done, files))
     if call.quiet:
@@ -71,11 +85,12 @@ def command(
 
 def _show(done: "PlanResult") -> None:
     """Print the orders, what would save late ones, the yarn to buy, and the cost beside its bound."""
-    from ilmek.jobs.plan import plan_results
-    from ilmek.jobs.plan_tables import cost_lines, measure_table, order_table, yarn_table
+    from ilmek.jobs.plan_results import plan_results
+    from ilmek.jobs.plan_tables import begun_table, cost_lines, measure_table, moved_table, order_table, yarn_table
 
     found = plan_results(done)
-    for table in (order_table(found), measure_table(found), yarn_table(found)):
+    for make in (begun_table, order_table, moved_table, measure_table, yarn_table):
+        table = make(found)
         if table.rows:
             show_table(table.headings, table.rows, right=table.numbers)
     show_pairs(cost_lines(done))

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -84,7 +83,7 @@ def command(
     page_to: Path | None,
     force: bool,
     json_to: str | None,
-    **words: Any,
+    **words: object,
 ) -> int:
     """Study TARGET: a machine, a machine file, a mechanism file, or a study file with the same words as these options.
 
@@ -111,7 +110,7 @@ def command(
 
 
 def _order(
-    target: str, vary: Mapping[str, str], settings: Mapping[str, str], limit: str | None, words: Mapping[str, Any]
+    target: str, vary: Mapping[str, str], settings: Mapping[str, str], limit: str | None, words: Mapping[str, object]
 ) -> StudyOrder:
     """The order of options, over that of a study file."""
     file = study_file(Path(target)) if Path(target).suffix.lower() in (".toml", ".json") else None

@@ -1,4 +1,4 @@
-"""`ilmek weave --technique gun|tufting`: the carpet by a tufting gun or a tufting machine."""
+"""`ilmek weave --technique gun|tufting|kilim`: the carpet by a tufting gun or a tufting machine, or as a kilim."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,13 +12,19 @@ from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import ParameterError
 from ilmek.jobs.gun import GunResult, gun_json, read_gun_order, weave_by_gun
+from ilmek.jobs.kilim import KilimResult, kilim_json, read_kilim_order, weave_kilim
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.tufting import TuftingResult, read_tufting_order, tufting_json, weave_by_tufting
 from ilmek.report.results import result_text
 from ilmek.units import format_quantity
 
-KNOTTED, GUN, TUFTING = TECHNIQUES = ("knotted", "gun", "tufting")
+KNOTTED, GUN, TUFTING, KILIM = TECHNIQUES = ("knotted", "gun", "tufting", "kilim")
+
+_OF_A_LOOM = {
+    KILIM: "a kilim is woven by hand: a loom would need a bobbin for each run of a row, and a shed for each of them",
+}
+"""Why a technique has no options of a loom, where that is said."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +45,7 @@ def require_technique(technique: str, settings: Mapping[str, Sequence[str]], of_
             raise ParameterError(f"--{name} without --technique {name}", do=do)
     names = ", ".join(name for name, value in of_the_loom.items() if value)
     if names and technique != KNOTTED:
-        allowed = "options of a loom are for knotted carpets"
+        allowed = _OF_A_LOOM.get(technique, "options of a loom are for knotted carpets")
         raise ParameterError(f"{names} with --technique {technique}", allowed=allowed, do="leave it out")
 
 
@@ -110,7 +116,22 @@ def _price(cost: float | None) -> str:
     return "not known" if cost is None else f"{cost:,.2f} EUR"
 
 
+def kilim_pairs(made: KilimResult) -> list[tuple[str, str]]:
+    """The carpet, its slits and bobbins, weft, time and cost, one line each."""
+    values = {result.name: result_text(result.value, result.unit) for result in made.results}
+    cloth = made.cloth
+    return [
+        ("carpet", f"{cloth.in_words}; {cloth.chart.rows} rows of {cloth.chart.columns} cells"),
+        ("slits", f"longest {values['slit_length']}, {values['slits_joined']} too long, {values['joins_woven']} joins"),
+        ("bobbins", f"{values['mean_bobbins']} a row, at most {values['bobbins_per_row']}"),
+        ("weft", f"{values['weft_length']}, {values['weft_mass']}; warp {values['warp_mass']}; {values['cloth_mass']}"),
+        ("time", values["kilim_time"]),
+        ("cost", _price(cloth.kilim_cost["sum"])),
+    ]
+
+
 TUFTED = {
     GUN: TuftingTechnique(read_gun_order, weave_by_gun, gun_json, gun_pairs),
     TUFTING: TuftingTechnique(read_tufting_order, weave_by_tufting, tufting_json, tufting_pairs),
+    KILIM: TuftingTechnique(read_kilim_order, weave_kilim, kilim_json, kilim_pairs),
 }

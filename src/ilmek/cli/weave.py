@@ -13,7 +13,7 @@ from ilmek.cli.options import force_option, json_option, rates_option, text_opti
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
-from ilmek.cli.tufted_summary import GUN, KNOTTED, TECHNIQUES, TUFTING, require_technique, weave_tufted
+from ilmek.cli.tufted_summary import GUN, KILIM, KNOTTED, TECHNIQUES, TUFTING, require_technique, weave_tufted
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
 from ilmek.io.rates_file import read_rates
 from ilmek.jobs.loom import read_loom_order
@@ -65,7 +65,8 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     "--technique",
     type=click.Choice(TECHNIQUES),
     default=KNOTTED,
-    help="knotted on a loom, tufted by a gun on a gantry, or by a tufting machine; default: knotted.",
+    help="knotted on a loom, tufted by a gun on a gantry or by a tufting machine, or a kilim woven by hand; "
+    "default: knotted.",
 )
 @click.option(
     "--gun",
@@ -81,6 +82,13 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     metavar="NAME=VALUE",
     help="Set a parameter of the tufting machine: gauge=4mm, stitch_rate=30/dm, pattern.selection=needles.",
 )
+@click.option(
+    "--kilim",
+    "kilim_settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Set a parameter of the kilim: warps=50/dm, picks=200/dm, join=slit|dovetail|interlock, longest_slit=15mm.",
+)
 @rates_option
 @force_option
 @json_option
@@ -95,6 +103,7 @@ def command(
     technique: str,
     gun_settings: tuple[str, ...],
     tufting_settings: tuple[str, ...],
+    kilim_settings: tuple[str, ...],
     rates: Path | None,
     force: bool,
     json_to: str | None,
@@ -113,10 +122,12 @@ def command(
     --technique gun tufts the carpet instead: the folder contains report.html with the path in motion, report.json, and
     gun.ngc, the G-code of the gun, where every check holds. --technique tufting designs a tufting machine for it:
     report.html with the cost beside the knotted carpet, report.json, carpet.png as the twin tufts it, and tufting.txt,
-    the yarn of each needle stroke by stroke, where every check holds.
+    the yarn of each needle stroke by stroke, where every check holds. --technique kilim weaves it by hand of wefts that
+    turn back at their colours: report.html, report.json, carpet.png, chart.png, chart.pdf with slits and joins, and
+    rows.txt.
     """
     order = read_order(**carpet)
-    of_tufts = {GUN: gun_settings, TUFTING: tufting_settings}
+    of_tufts = {GUN: gun_settings, TUFTING: tufting_settings, KILIM: kilim_settings}
     beside = {"--heads": heads, "--aim": aim, "--warp-pitch": warp_pitch, "--loom": settings, "--rates": rates}
     require_technique(technique, of_tufts, {**beside, "--save-recipe": save_recipe})
     if technique != KNOTTED:

@@ -19,6 +19,7 @@ from ilmek.dynamics.loads import Load as Load
 from ilmek.dynamics.loads import PointForce as PointForce
 from ilmek.dynamics.loads import Torque as Torque
 from ilmek.dynamics.machine_balance import MachineBalance as MachineBalance
+from ilmek.dynamics.motor_drive import MotorDrive as MotorDrive
 from ilmek.dynamics.reduced import ReducedMechanism as ReducedMechanism
 from ilmek.dynamics.reduced import reduce as reduce
 from ilmek.dynamics.shapes import disc as disc

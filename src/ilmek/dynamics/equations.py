@@ -86,10 +86,10 @@ def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
     samples = poses.motion.status.shape[0]
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
     responses = [_response(poses, name, nothing, samples) for name in poses.actuators]
-    matrix = np.stack([_input_efforts(poses, response, samples) for response in responses], axis=-1)
+    matrix = np.stack([input_efforts(poses, response, samples) for response in responses], axis=-1)
     size = np.abs(np.linalg.det(matrix))
     matrix[size <= STILL * np.fmax.reduce(size, initial=0.0)] = np.nan
-    efforts = solve_many(matrix, -_input_efforts(poses, pulls, samples))
+    efforts = solve_many(matrix, -input_efforts(poses, pulls, samples))
     for response, effort in zip(responses, efforts.T, strict=True):
         pulls = {
             name: ForceAndMoment(
@@ -107,7 +107,7 @@ def _response(poses: PoseBlock, actuator: str, nothing: Needs, samples: int) -> 
     return pulls | {actuator: ForceAndMoment(own.force + unit.force, own.moment + unit.moment)}
 
 
-def _input_efforts(poses: PoseBlock, pulls: Pulls, samples: int) -> FloatArray:
+def input_efforts(poses: PoseBlock, pulls: Pulls, samples: int) -> FloatArray:
     """Efforts of the inputs, shape (samples, inputs)."""
     joints = [poses.joints[entry.joint] for entry in poses.motion.plan.mechanism.inputs]
     efforts = [joint.generalized_force(pulls[joint.name], joint.at) for joint in joints]

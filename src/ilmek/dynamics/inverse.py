@@ -9,7 +9,7 @@ on its `body`; an input's effort acts on the driven body. The opposite acts on t
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross, dot
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.framed import Framed
 from ilmek.units import counted, format_quantity
 
@@ -235,7 +235,7 @@ def inverse(
                 *separations(mechanism),
                 *(law for law in joint_frictions if law.joint not in missing.frictions),
             ]
-            forces.load_power[part] += _load_power(poses, acting)
+            forces.load_power[part] += load_power(poses, acting)
             sizes: dict[str, FloatArray] = {}
             if laws:
                 sizes, locked = efforts(poses, needed, laws, cut(side, part))
@@ -285,7 +285,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actu
 def _without(forces: Forces, missing: Undetermined) -> Forces:
     """The forces with NaN where they are not determined."""
 
-    def shown(arrays: Mapping[str, Any], names: frozenset[str]) -> dict[str, Any]:
+    def shown(arrays: Mapping[str, object], names: frozenset[str]) -> JsonObject:
         return {name: np.full_like(array, np.nan) if name in names else array for name, array in arrays.items()}
 
     return replace(
@@ -341,7 +341,8 @@ def _store_reactions(
             forces.torques[name][part] = np.where(failed, np.nan, torque)
 
 
-def _load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
+def load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:
+    """Power of loads over a block of samples [W]."""
     power: RealField = 0.0
     for wrench in wrenches:
         velocity = poses.point_motion(wrench.body, wrench.at).velocity

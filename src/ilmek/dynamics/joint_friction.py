@@ -17,14 +17,15 @@ frictionless one as mu grows from 0 (the determinant of the Jacobian has changed
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, ComplexField, FloatArray, RealField
-from ilmek.dynamics.equations import Needs, joint_pulls, loaded
+from ilmek.arguments import Arguments
+from ilmek.arrays import BoolArray, Float, FloatArray, RealField
+from ilmek.dynamics.equations import Needs, Pulls, joint_pulls, loaded
 from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
@@ -33,6 +34,10 @@ from ilmek.linkage.couplings import BeltSpans
 from ilmek.linkage.model import Mechanism, Pin, Slide
 from ilmek.num.linear import solve_many
 from ilmek.plane.vectors import cross, dot
+
+Components: TypeAlias = tuple[RealField, RealField]
+"""Two linear functions of a joint force [N]; friction is a factor times their size: |F| of a pin and of teeth, the
+greater of both in a slide and a belt. `given` is 1 of a joint force, 0 of a change of one."""
 
 MAX_ITERATIONS = 50
 TOLERANCE = 1e-12
@@ -46,6 +51,9 @@ class PinFriction:
     joint  name      radius  of the pin [m]      coefficient  mu [1]      drag  viscous, c [N m s]
 
     Raises MechanismError for values that are negative or not finite.
+
+    >>> PinFriction("B", "12mm", 0.1).radius
+    0.012
     """
 
     joint: str
@@ -54,20 +62,21 @@ class PinFriction:
     drag: float = 0.0
 
     def __post_init__(self) -> None:
-        _require(self.joint, radius=self.radius, coefficient=self.coefficient, drag=self.drag)
+        _read(self, radius="m", coefficient="", drag="N*m*s")
 
     @property
     def dry(self) -> bool:
         """Whether it depends on the force of its joint."""
         return self.coefficient * self.radius > 0
 
-    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """Greatest torque of Coulomb friction [N m] under the pin force: mu r |F|."""
-        return self.coefficient * self.radius * np.abs(pull.force)
+    @property
+    def factor(self) -> float:
+        """Of the size of the pin force: mu r [m]."""
+        return self.coefficient * self.radius
 
-    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """Derivative of `limit` [N m] in the direction of a change of the joint force."""
-        return self.coefficient * self.radius * _size_change(pull.force, change.force)
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+        """The pin force F [N]."""
+        return np.real(pull.force), np.imag(pull.force)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +88,9 @@ class SlideFriction:
 
     The guide extends by b / 2 to either side of the body's point with the slide's name. Raises MechanismError for
     values that are negative or not finite, and a breadth of 0.
+
+    >>> SlideFriction("line", "80mm", 0.1).breadth
+    0.08
     """
 
     joint: str
@@ -87,29 +99,22 @@ class SlideFriction:
     drag: float = 0.0
 
     def __post_init__(self) -> None:
-        _require(self.joint, coefficient=self.coefficient, drag=self.drag)
-        if not (math.isfinite(self.breadth) and self.breadth > 0):
-            raise MechanismError(f"breadth of slide {self.joint!r} is {self.breadth:g} m", allowed="finite and above 0")
+        _read(self, breadth="m", coefficient="", drag="N*s/m")
+        if self.breadth == 0:
+            raise MechanismError(f"breadth of slide {self.joint!r} is 0 m", allowed="above 0")
 
     @property
     def dry(self) -> bool:
         """Whether it depends on the force of its joint."""
         return self.coefficient > 0
 
-    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
-        """Greatest force of Coulomb friction [N] under the slide's force and couple: mu max(|N|, 2 |C| / b)."""
-        across, couple = self._parts(joint, pull)
-        return self.coefficient * np.maximum(np.abs(across), np.abs(couple))
+    @property
+    def factor(self) -> float:
+        """Of the force on the guide: mu [1]."""
+        return self.coefficient
 
-    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
-        """Derivative of `limit` [N] in the direction of a change of the joint force and couple."""
-        across, couple = self._parts(joint, pull)
-        to_across, to_couple = self._parts(joint, change)
-        leaning = np.abs(across) >= np.abs(couple)
-        return self.coefficient * np.where(leaning, np.sign(across) * to_across, np.sign(couple) * to_couple)
-
-    def _parts(self, joint: JointPoses, pull: ForceAndMoment) -> tuple[RealField, RealField]:
-        """N and 2 C / b."""
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+        """N and 2 C / b [N]."""
         line = joint.line if joint.line is not None else 1 + 0j
         return dot(1j * line, pull.force), 2 * pull.moment / self.breadth
 
@@ -122,13 +127,14 @@ class ToothSeparation:
     pressure_angle: float
     drag: float = 0.0
 
-    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """The force F_r [N] under the force along the pitch line."""
-        return math.tan(self.pressure_angle) * np.abs(pull.force)
+    @property
+    def factor(self) -> float:
+        """Of the force along the pitch line: tan alpha [1]."""
+        return math.tan(self.pressure_angle)
 
-    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
-        """Derivative of `limit` [N] in the direction of a change of the force along the pitch line."""
-        return math.tan(self.pressure_angle) * _size_change(pull.force, change.force)
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:  # noqa: ARG002
+        """The force along the pitch line [N]."""
+        return np.real(pull.force), np.imag(pull.force)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,20 +152,17 @@ class SpanTension:
     ratio: float
     drag: float = 0.0
 
-    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
-        """The force F [N]."""
-        return np.maximum(2 * self.spans.pretension, np.abs(self.difference(joint, pull))) * self._along(joint)
+    @property
+    def factor(self) -> float:
+        """1: the force is the greater component."""
+        return 1.0
 
-    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
-        """Derivative of `limit` [N] in the direction of a change of the force and moment."""
-        apart = self.difference(joint, pull)
-        slack = np.abs(apart) > 2 * self.spans.pretension
-        return np.where(slack, np.sign(apart) * self.difference(joint, change), 0.0) * self._along(joint)
-
-    def difference(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
-        """M_2 / r_2 [N]: the difference of the forces in the spans."""
+    def components(self, joint: JointPoses, pull: ForceAndMoment, given: float = 1.0) -> Components:
+        """M_2 / r_2 cos alpha, the difference of the forces in the spans, and 2 T_0 cos alpha [N]."""
         assert joint.middle is not None
-        return (pull.moment + cross(joint.at - joint.middle, pull.force)) * abs(self.ratio) / self.spans.radius
+        torque = pull.moment + cross(joint.at - joint.middle, pull.force)
+        along = self._along(joint)
+        return torque * abs(self.ratio) / self.spans.radius * along, given * 2 * self.spans.pretension * along
 
     def _along(self, joint: JointPoses) -> RealField:
         assert joint.middle is not None
@@ -169,11 +172,13 @@ class SpanTension:
 
 JointFriction: TypeAlias = PinFriction | SlideFriction
 
-EffortLaw: TypeAlias = JointFriction | ToothSeparation | SpanTension
+Separation: TypeAlias = ToothSeparation | SpanTension
+
+EffortLaw: TypeAlias = JointFriction | Separation
 """The law of an effort that depends on the forces of its joint."""
 
 
-def separations(mechanism: Mechanism) -> Iterator[ToothSeparation | SpanTension]:
+def separations(mechanism: Mechanism) -> Iterator[Separation]:
     """The laws of all teeth in mesh with a pressure angle, and of all belts with given spans."""
     for mesh in mechanism.couplings:
         if has_teeth(mesh) and mesh.pressure_angle:
@@ -211,39 +216,58 @@ def efforts(
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]
-    separating = np.array([[isinstance(law, ToothSeparation | SpanTension)] for law in laws])
+    separating = np.array([[isinstance(law, Separation)] for law in laws])
     rates = np.stack([np.broadcast_to(poses.rate(joint), samples) for joint in joints])
     viscous = -np.array([[law.drag] for law in laws]) * rates
     rest = loaded(poses, needed, dict(zip((law.joint for law in laws), viscous, strict=True)))
-    unloaded = joint_pulls(poses, rest)
+    start = components(joints, laws, joint_pulls(poses, rest), samples)
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
-    responses = [joint_pulls(poses, loaded(poses, nothing, {joint.name: np.ones(samples)})) for joint in joints]
+    units = [loaded(poses, nothing, {joint.name: np.ones(samples)}) for joint in joints]
+    responses = np.stack([components(joints, laws, joint_pulls(poses, unit), samples, 0.0) for unit in units])
     signs = np.full(rates.shape, -1.0)
     if not separating.all():
-        second = np.stack([_second_rate(poses, joint) for joint in joints])
+        second = np.stack([second_rate(poses, joint) for joint in joints])
         signs = np.where(separating, signs, np.sign(rates + _time_offset(poses, side) * second))
-    sizes, locked = _consistent(joints, laws, signs, unloaded, responses)
+    sizes, locked = consistent(laws, signs, start, responses)
     return {law.joint: size for law, size in zip(laws, viscous + sizes, strict=True)}, locked
 
 
-def _consistent(
-    joints: Sequence[JointPoses],
+def components(
+    joints: Sequence[JointPoses], laws: Sequence[EffortLaw], pulls: Pulls, samples: int, given: float = 1.0
+) -> Float[np.ndarray, "laws 2 samples"]:
+    """Components of the joint forces of all laws [N]; given: 0 where the forces are changes."""
+    found = np.empty((len(laws), 2, samples))
+    for row, joint, law in zip(found, joints, laws, strict=True):
+        row[0], row[1] = law.components(joint, pulls[joint.name], given)
+    return found
+
+
+def consistent(
     laws: Sequence[EffortLaw],
-    signs: FloatArray,
-    unloaded: Mapping[str, ForceAndMoment],
-    responses: Sequence[Mapping[str, ForceAndMoment]],
-) -> tuple[FloatArray, BoolArray]:
-    """Efforts, one row per joint, and the locked samples; Newton's method on all samples at once."""
-    x = np.zeros_like(signs)
-    greatest = np.zeros_like(signs)
+    signs: Float[np.ndarray, "laws samples"],
+    start: Float[np.ndarray, "laws 2 samples"],
+    responses: Float[np.ndarray, "laws laws 2 samples"],
+) -> tuple[Float[np.ndarray, "laws samples"], BoolArray]:
+    """Efforts, and the locked samples, shape (samples,); Newton's method on all samples at once.
+
+    signs      of the speeds in the joints; -1 of a separation
+    start      components of the joint forces without these efforts
+    responses  their changes by a unit effort of the first law
+    """
+    factors = np.array([[law.factor] for law in laws])
+    greater = np.array([[isinstance(law, SlideFriction | SpanTension)] for law in laws])
+    x, greatest = np.zeros_like(signs), np.zeros_like(signs)
     for _ in range(MAX_ITERATIONS):
-        pulls = [_sum(unloaded[joint.name], [unit[joint.name] for unit in responses], x) for joint in joints]
-        rows = list(zip(laws, joints, pulls, strict=True))
-        limits = np.stack([law.limit(joint, pull) for law, joint, pull in rows])
-        greatest = np.fmax(greatest, limits)
-        residual = x + signs * limits
-        slopes = [[law.limit_change(joint, pull, unit[joint.name]) for unit in responses] for law, joint, pull in rows]
-        matrix = np.eye(len(joints)) + np.moveaxis(signs[:, None] * np.array(slopes), -1, 0)
+        at = start + np.einsum("ks,klcs->lcs", x, responses)
+        first, second = np.abs(at[:, 0]), np.abs(at[:, 1])
+        size = np.where(greater, np.maximum(first, second), np.hypot(first, second))
+        leads = np.where(greater, first >= second, np.divide(first, size, out=np.zeros_like(size), where=size > 0))
+        trails = np.where(greater, first < second, np.divide(second, size, out=np.zeros_like(size), where=size > 0))
+        along = np.stack((np.sign(at[:, 0]) * leads, np.sign(at[:, 1]) * trails), axis=1)
+        slopes = factors * np.einsum("lcs,klcs->kls", along, responses)
+        greatest = np.fmax(greatest, factors * size)
+        residual = x + signs * factors * size
+        matrix = np.eye(len(laws)) + np.moveaxis(signs * slopes, (0, 1, 2), (2, 1, 0))
         off = np.abs(residual) > TOLERANCE * greatest
         if not off.any():
             break
@@ -251,19 +275,6 @@ def _consistent(
     joined = np.linalg.det(np.where(np.isfinite(matrix), matrix, 0.0)) > 0
     locked: BoolArray = off.any(axis=0) | ~joined | ~np.isfinite(x).all(axis=0)
     return np.where(locked, np.nan, x), locked
-
-
-def _sum(rest: ForceAndMoment, responses: Sequence[ForceAndMoment], x: FloatArray) -> ForceAndMoment:
-    force = rest.force + sum(size * response.force for size, response in zip(x, responses, strict=True))
-    return ForceAndMoment(
-        force, rest.moment + sum(size * response.moment for size, response in zip(x, responses, strict=True))
-    )
-
-
-def _size_change(force: ComplexField, change: ComplexField) -> RealField:
-    """Derivative of |F| in the direction of a change of F; 0 at F = 0."""
-    size = np.abs(force)
-    return np.divide(dot(force, change), size, out=np.zeros(np.shape(size)), where=size > 0)
 
 
 def _time_offset(poses: PoseBlock, side: RealField) -> RealField:
@@ -277,7 +288,7 @@ def _time_offset(poses: PoseBlock, side: RealField) -> RealField:
     return offset
 
 
-def _second_rate(poses: PoseBlock, joint: JointPoses) -> FloatArray:
+def second_rate(poses: PoseBlock, joint: JointPoses) -> FloatArray:
     """Time derivative of the joint's rate where the rate is zero [rad/s²; m/s²]."""
     on, by = poses.bodies[joint.on], poses.bodies[joint.by]
     if joint.line is None:
@@ -291,7 +302,10 @@ def _second_rate(poses: PoseBlock, joint: JointPoses) -> FloatArray:
     return np.broadcast_to(np.asarray(second, dtype=float), poses.motion.status.shape)
 
 
-def _require(joint: str, **sizes: float) -> None:
-    for name, size in sizes.items():
-        if not (math.isfinite(size) and size >= 0):
-            raise MechanismError(f"{name} of joint {joint!r} is {size:g}", allowed="finite and not negative")
+def _read(law: JointFriction, **units: str) -> None:
+    """Convert the quantities of a friction. Raises MechanismError for one that is negative or not finite."""
+    given = Arguments("friction of a joint", MechanismError)
+    object.__setattr__(law, "joint", given.text("joint", law.joint))
+    given = Arguments(f"joint {law.joint!r}", MechanismError)
+    for name, unit in units.items():
+        object.__setattr__(law, name, given.not_negative(name, getattr(law, name), unit))

@@ -91,7 +91,7 @@ def gravity_vector(acceleration: object) -> complex:
     return vector
 
 
-def sampled(law: Any, motion: Motion, body: str) -> Any:
+def sampled(law: object, motion: Motion, body: str) -> Any:
     """A force or torque on a body over the samples of a motion.
 
     Raises MechanismError for an unknown body and another number of values.

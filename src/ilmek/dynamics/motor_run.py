@@ -1,9 +1,6 @@
 """A machine run by a motor on its crank: required torque, the flywheel, the start from rest and the steady run.
 
-    M = M_0 tanh((omega_0 - omega) / (s omega_0))          a motor or drive that limits its torque to M_0
-
-omega_0 is the speed without load, s the slip at which a linear characteristic would reach M_0. The characteristic is
-assumed by this project. Equation of motion and flywheel: see `reduced` and `flywheel`.
+Motor: see `motor_drive`. Equation of motion and flywheel: see `reduced` and `flywheel`.
 """
 
 import math
@@ -17,6 +14,7 @@ from ilmek.dynamics.forward import ForwardRun, ForwardState, at_speed, forward
 from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.dynamics.reduced import reduce
 from ilmek.linkage.structure import Plan
 from ilmek.records import computed, record, result
@@ -136,8 +134,7 @@ def motor_run(
     if most == 0 or tabulate(reduced) is None:
         return MotorRun(required, wheel, most, None, False, None, None)
 
-    def motor(_time: float, _position: float, at: float) -> float:
-        return most * math.tanh((speed - at) / (task.slip * speed))
+    motor = MotorDrive(most, speed, task.slip)
 
     def run(start: ForwardState, duration: float, every: float, *, reach: bool) -> ForwardRun:
         events = (reached,) if reach else ()

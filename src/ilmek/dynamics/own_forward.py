@@ -1,8 +1,6 @@
 """Forward run of an own machine: its motion from a state under its drive and loads, and the joint forces of it.
 
-    M = M_0 tanh((w_0 - w) / (s w_0)),   or M = M_0 constant       [characteristic assumed by this project: `motor_run`]
-
-The friction of joints is not part of a forward run: it depends on the acceleration that is sought.
+The drive is a `MotorDrive`; the friction of joints is part of the run.
 """
 
 import math
@@ -11,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.dynamics.forward import RunEvent, forward
-from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState
+from ilmek.dynamics.forward_run import EndKind, ForwardRun, ForwardState
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_run
-from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
+from ilmek.dynamics.own_machine import ForwardTask, OwnMachine, StopEvent
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Rotation
@@ -44,7 +42,7 @@ class OwnForward:
 
     @property
     def forces(self) -> Forces:
-        """Joint forces over the run, without the friction of joints."""
+        """Joint forces over the run."""
         return self.inverse.forces
 
     @property
@@ -87,9 +85,10 @@ class OwnForward:
 
     @computed("", "events of the forward run: name, time [s], position and speed of the input [SI]", shown=False)
     def forward_events(self) -> list[dict[str, str | float]]:
+        names = ("name", "time", "position", "speed")
         return [
-            {"name": event.name, "time": event.time, "position": event.state.position, "speed": event.state.speed}
-            for event in self.run.events
+            dict(zip(names, (one.name, one.time, float(one.state.position), float(one.state.speed)), strict=True))
+            for one in self.run.events
         ]
 
     @computed("N", "greatest force of each pin in the forward run", shown=False)
@@ -98,36 +97,26 @@ class OwnForward:
 
 
 def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForward:
-    """The forward run of a machine with one input, and its joint forces without the friction of joints.
+    """The forward run of a machine with one input, and its joint forces.
 
     Raises MechanismError as `reduce` and `forward`: for several inputs, no moving mass, and a start at which the
     mechanism does not close.
     """
     wheel = task.drive.inertia if task.drive is not None else 0.0
-    reduced = reduce(plan, machine.inertias, all_loads(machine), flywheel=wheel)
+    reduced = reduce(plan, machine.inertias, all_loads(machine), flywheel=wheel, frictions=machine.frictions)
     start = ForwardState(task.position, task.speed)
     run = forward(
         reduced,
         start,
         task.duration,
-        drive=None if task.drive is None else _drive(task.drive),
+        drive=task.drive,
         events=[_event(event) for event in task.events],
         every=task.duration / SAMPLES,
         rtol=RTOL,
         most_steps=MOST_STEPS,
     )
-    frictionless = replace(machine, frictions=(), actuators=())
-    forces = inverse_run(frictionless, run.motion(), plan.mechanism.inputs[0].name, run.time)
+    forces = inverse_run(replace(machine, actuators=()), run.motion(), plan.mechanism.inputs[0].name, run.time)
     return OwnForward(run, forces, wheel, task.duration)
-
-
-def _drive(motor: MotorDrive) -> Drive:
-    def effort(_time: float, _position: float, speed: float) -> float:
-        if motor.speed is None:
-            return motor.effort
-        return motor.effort * math.tanh((motor.speed - speed) / (motor.slip * abs(motor.speed)))
-
-    return effort
 
 
 def _event(stop: StopEvent) -> RunEvent:

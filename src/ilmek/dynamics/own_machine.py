@@ -14,6 +14,7 @@ from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, gravity_vector
+from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.errors import MechanismError
 from ilmek.linkage.joints import body_point
 from ilmek.linkage.model import Mechanism
@@ -101,20 +102,6 @@ class GivenMotion:
     period: float | None
     breaks: tuple[float, ...] = ()
     speed: float | None = None
-
-
-@record
-class MotorDrive:
-    """A drive for forward runs: torque [N m] or force [N] on the input, M = M_0 tanh((w_0 - w) / (s w_0)), or constant.
-
-    effort     M_0 [N m; N]      speed  w_0 without load [rad/s; m/s]; None: constant effort
-    slip       s [1]             inertia  of rotor and flywheel, at the input [kg m²; kg]
-    """
-
-    effort: float
-    speed: float | None = None
-    slip: float = 0.05
-    inertia: float = 0.0
 
 
 @record

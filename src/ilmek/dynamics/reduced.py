@@ -1,4 +1,4 @@
-"""A mechanism with one degree of freedom, reduced to its input coordinate.
+"""A mechanism reduced to its inputs; the terms of the equation of one input. The general one: `equation_of_motion`.
 
     T = J(q) q'^2 / 2,    J(q) q'' + J'(q) q'^2 / 2 = Q(q, q') + M
     J = Σ (m |dG/dq|^2 + I (dθ/dq)^2),    Q = Σ (F · dP/dq + T dθ/dq)        [Eksergian, Dynamical Analysis of Machines]
@@ -14,16 +14,18 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import Float, FloatArray, Int8
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.joint_friction import JointFriction, check_joints
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
 from ilmek.errors import MechanismError
+from ilmek.linkage.model import Mechanism
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.plane.vectors import dot
 from ilmek.records import record
-from ilmek.units import counted
 
 Samples: TypeAlias = Float[np.ndarray, " samples"]
 
@@ -46,12 +48,13 @@ class Terms:
 
 @record
 class ReducedMechanism:
-    """A mechanism with one input, its masses and loads; built by `reduce`.
+    """A mechanism with its masses, loads and friction, reduced to its inputs; built by `reduce`.
 
-    weights   gravity loads
-    steady    other loads that depend on the pose only
-    live      loads that may depend on speed and time as well
-    flywheel  inertia that moves with the input, including the motor's rotor [kg m²; kg for a sliding input]
+    weights    gravity loads
+    steady     other loads that depend on the pose only
+    live       loads that may depend on speed and time as well
+    wheels     input -> inertia that moves with it, including the motor's rotor [kg m²; kg for a sliding input]
+    frictions  of joints
     """
 
     plan: Plan
@@ -59,16 +62,22 @@ class ReducedMechanism:
     weights: tuple[Gravity, ...]
     steady: tuple[Load, ...]
     live: tuple[Load, ...]
-    flywheel: float
+    wheels: Mapping[str, float]
+    frictions: tuple[JointFriction, ...] = ()
+
+    @property
+    def one(self) -> bool:
+        """Whether the equation of one input, without friction, describes it."""
+        return len(self.wheels) == 1 and not self.frictions
 
     def terms(self, position: FloatArray) -> Terms:
-        """J, dJ/dq and Q at input values [rad; m], one value per sample."""
+        """J, dJ/dq and Q of the only input at its values [rad; m], one value per sample, without friction."""
         with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
             return self._terms(position)
 
     def _terms(self, position: FloatArray) -> Terms:
         unit = solve(self.plan, position, 1.0)
-        inertia, slope = np.full(len(unit), self.flywheel), np.zeros(len(unit))
+        inertia, slope = np.full(len(unit), sum(self.wheels.values())), np.zeros(len(unit))
         for body, weighed in self.inertias.items():
             centre, omega = unit.carried(body, weighed.centre), unit.omega(body)
             inertia = inertia + weighed.mass * np.abs(centre.velocity) ** 2 + weighed.moment * omega**2
@@ -91,15 +100,18 @@ class ReducedMechanism:
                 return np.asarray(self._force(motion, motion, self.live) / speed)
         return self._force(solve(self.plan, position, 1.0), motion, self.live)
 
-    def potential(self, position: Samples) -> Samples:
-        """Potential energy of gravity [J] at input values [rad; m], relative to the ground's origin."""
-        motion = solve(self.plan, position)
-        energy = np.zeros(len(motion))
-        for load in self.weights:
-            for body, weighed in self.inertias.items():
-                centre = motion.carried(body, weighed.centre).position
-                energy = energy - weighed.mass * dot(complex(load.acceleration), centre)
-        return energy
+    def energies(self, motion: Motion) -> tuple[Samples, Samples]:
+        """Kinetic energy, and potential energy of gravity relative to the ground's origin [J], over a motion."""
+        kinetic, potential = np.zeros(len(motion)), np.zeros(len(motion))
+        for name, wheel in self.wheels.items():
+            kinetic = kinetic + wheel * np.asarray(motion.drives[name].speed) ** 2 / 2
+        for body, weighed in self.inertias.items():
+            centre = motion.carried(body, weighed.centre)
+            kinetic = kinetic + weighed.mass * np.abs(centre.velocity) ** 2 / 2
+            kinetic = kinetic + weighed.moment * motion.omega(body) ** 2 / 2
+            for load in self.weights:
+                potential = potential - weighed.mass * dot(complex(load.acceleration), centre.position)
+        return kinetic, potential
 
     def _force(self, unit: Motion, motion: Motion, loads: Iterable[Load]) -> Samples:
         force = np.zeros(len(unit))
@@ -112,34 +124,52 @@ class ReducedMechanism:
 
 
 def reduce(
-    plan: Plan, inertias: Mapping[str, Inertia], loads: Sequence[Load] = (), *, flywheel: float = 0.0
+    plan: Plan,
+    inertias: Mapping[str, Inertia],
+    loads: Sequence[Load] = (),
+    *,
+    flywheel: float | Mapping[str, float] = 0.0,
+    frictions: Sequence[JointFriction] = (),
 ) -> ReducedMechanism:
-    """The mechanism reduced to its only input.
+    """The mechanism reduced to its inputs.
 
-    inertias  body -> inertia [kg, m, kg m²]; a body that is not listed is massless
-    loads     loads such as `Gravity`; default: none
-    flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
+    inertias   body -> inertia [kg, m, kg m²]; a body that is not listed is massless
+    loads      loads such as `Gravity`; default: none
+    flywheel   inertia that moves with the only input [kg m²; kg for a sliding input], or input -> inertia
+    frictions  of joints; default: none
 
-    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load given by sample, and
-    a mechanism in which no mass moves with the input.
+    Raises MechanismError for a mechanism without inputs, an unknown body, input or joint, a negative flywheel, a load
+    given by sample, and a mechanism in which no mass moves.
     """
     mechanism = plan.mechanism
-    if len(mechanism.inputs) != 1:
-        raise MechanismError(
-            f"{mechanism.name} has {counted(len(mechanism.inputs), 'input')}",
-            allowed="the reduced equation is for one degree of freedom",
-        )
+    if not mechanism.inputs:
+        raise MechanismError(f"{mechanism.name} has no input", allowed="a mechanism with one input or more")
     for body in inertias:
         mechanism.body(body)
-    if not (np.isfinite(flywheel) and flywheel >= 0):
-        raise MechanismError(f"flywheel of {mechanism.name} is {flywheel:g}", allowed="finite and not negative")
+    check_joints(mechanism, frictions)
+    wheels = _wheels(mechanism, flywheel)
     moving = {body: inertia for body, inertia in inertias.items() if body in mechanism.moving}
-    if flywheel == 0 and not any(inertia.mass or inertia.moment for inertia in moving.values()):
+    if not any(wheels.values()) and not any(inertia.mass or inertia.moment for inertia in moving.values()):
         raise MechanismError(f"no body of {mechanism.name} has a mass", do="give inertias, or a flywheel")
     weights = tuple(load for load in loads if isinstance(load, Gravity))
     others = [load for load in loads if not isinstance(load, Gravity)]
-    steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
-    return ReducedMechanism(plan, moving, weights, tuple(steady), tuple(live), flywheel)
+    steady, live = (tuple(load for load in others if _steady(load) is kind) for kind in (True, False))
+    return ReducedMechanism(plan, moving, weights, steady, live, wheels, tuple(frictions))
+
+
+def _wheels(mechanism: Mechanism, flywheel: float | Mapping[str, float]) -> dict[str, float]:
+    """Input -> inertia that moves with it. Raises MechanismError for an unknown input and a negative inertia."""
+    names = [entry.name for entry in mechanism.inputs]
+    given = flywheel if isinstance(flywheel, Mapping) else {names[0]: flywheel} if flywheel else {}
+    if len(names) > 1 and given is not flywheel and flywheel:
+        allowed = f"input -> flywheel; the inputs are {', '.join(names)}"
+        raise MechanismError(f"one flywheel is given for {len(names)} inputs", allowed=allowed)
+    wheels = dict.fromkeys(names, 0.0)
+    for name, wheel in given.items():
+        wheels[Arguments("", MechanismError).one_of("an input", name, names)] = wheel
+        if not (np.isfinite(wheel) and wheel >= 0):
+            raise MechanismError(f"flywheel of {mechanism.name} is {wheel:g}", allowed="finite and not negative")
+    return wheels
 
 
 def _steady(load: Load) -> bool:

@@ -16,6 +16,7 @@ factor a_ISO of lubrication and cleanliness is 1.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -85,6 +86,7 @@ def slope_limit(bearing: RollingBearing) -> float:
     return next(known.slope_limit for known in BEARINGS if known.name == kind)
 
 
+@lru_cache(maxsize=256)
 def find_bearing(name: str) -> RollingBearing:
     """The bearing of a designation. Raises ParameterError with the nearest designation for an unknown one.
 

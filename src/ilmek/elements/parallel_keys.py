@@ -10,6 +10,7 @@ of a stack: of the length that they need together, beyond the longest of DIN 688
 """
 
 import math
+from functools import lru_cache
 
 from ilmek.elements.keyways import Keyway, keyway_for
 from ilmek.records import record
@@ -89,6 +90,7 @@ def lengths_of(row: Keyway) -> tuple[float, ...]:
     return tuple(length for length in LENGTHS if row.shortest - mm / 2 < length < row.longest + mm / 2)
 
 
+@lru_cache(maxsize=256)
 def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
     """The end with the shortest key that bears a torque [N m], else with two; with the two longest where none does.
 

@@ -10,6 +10,7 @@ Positions are complex [m]; a node moves along x and y and turns.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -107,7 +108,8 @@ def _supported(
     modulus: float,
 ) -> tuple[FloatArray, FloatArray]:
     """Stiffness and mass of the frame with its masses, in the directions in which it is free."""
-    stiffness, inertia = _assembled(nodes, members, modulus)
+    stiffness, bare = _assembled(tuple(nodes), tuple(members), modulus)
+    inertia = bare.copy()
     for node, mass in masses.items():
         inertia[3 * node, 3 * node] += mass
         inertia[3 * node + 1, 3 * node + 1] += mass
@@ -147,8 +149,9 @@ def _loose() -> ParameterError:
     return ParameterError("a frame that moves as a mechanism", do="hold its feet, or join its members")
 
 
+@lru_cache(maxsize=64)
 def _assembled(
-    nodes: Sequence[complex], members: Sequence[FrameMember], modulus: float
+    nodes: tuple[complex, ...], members: tuple[FrameMember, ...], modulus: float
 ) -> tuple[FloatArray, FloatArray]:
     """Stiffness and mass of all members; nodes between the elements of a member follow those of the frame."""
     size = 3 * (len(nodes) + (ELEMENTS - 1) * len(members))
@@ -165,6 +168,8 @@ def _assembled(
         here = ways[:, :, None], ways[:, None, :]
         np.add.at(stiffness, here, k)
         np.add.at(inertia, here, m)
+    for kept in (stiffness, inertia):
+        kept.setflags(write=False)
     return stiffness, inertia
 
 

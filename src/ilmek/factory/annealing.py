@@ -234,7 +234,7 @@ class _Annealing:
         """The line of a sequence that is that of `before` up to an index; floors: least starts that are new."""
         ends, energies = before.ends[: index + 1], before.energies[: index + 1]
         free, energy, timed, what = ends[-1], energies[-1], self.timed, self.factory.jobs
-        setup = what[jobs[index - 1]].setup if index else None
+        setup = what[jobs[index - 1]].setup if index else self.factory.looms[loom].setup
         for job in jobs[index:]:
             same = what[job].setup == setup
             least = floors.get(job)

@@ -64,7 +64,11 @@ def capacity_bound(factory: Factory, horizon: int) -> int:
 
 
 def _first_dressings(factory: Factory) -> int:
-    """The cost of one whole dressing for each setup of several carpets, beyond the short one of all of them."""
+    """The cost of one whole dressing for each setup of several carpets, beyond the short one of all of them.
+
+    A setup that is on a loom needs none.
+    """
+    dressed = {loom.setup for loom in factory.looms}
     groups: dict[int, list[int]] = {}
     for number, job in enumerate(factory.jobs):
         groups.setdefault(job.setup, []).append(number)
@@ -74,8 +78,8 @@ def _first_dressings(factory: Factory) -> int:
             for number in members
             for loom in factory.jobs[number].weaving
         )
-        for members in groups.values()
-        if len(members) > 1
+        for setup, members in groups.items()
+        if len(members) > 1 and setup not in dressed
     )
 
 
@@ -92,7 +96,6 @@ def _shares(factory: Factory, horizon: int) -> _Shares:
     pairs = sum(len(job.weaving) for job in factory.jobs)
     intervals = min(MOST_INTERVALS, max(LEAST_INTERVALS, MOST_SHARES // max(pairs, 1)))
     edges = [horizon * step // intervals for step in range(intervals + 1)]
-    setups = [job.setup for job in factory.jobs]
     capacity = [
         max(loom.weaving.work(end) - loom.weaving.work(max(begin, min(loom.available, end))), 0)
         for loom in factory.looms
@@ -100,7 +103,7 @@ def _shares(factory: Factory, horizon: int) -> _Shares:
     ]
     rows: list[tuple[int, int, int, int]] = []
     for number, job in enumerate(factory.jobs):
-        same = setups.count(job.setup) > 1
+        same = factory.like(number)
         for loom, weaving in job.weaving.items():
             on = factory.looms[loom]
             cost = factory.loom_cost(number, loom, same=same)

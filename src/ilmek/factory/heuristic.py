@@ -7,7 +7,7 @@ evaluations, never in seconds: the same factory gives the same plan on every mac
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from ilmek.factory.model import Factory, FactoryPlan, carpet_on, left_shifted, lone_cost, sequences_of
+from ilmek.factory.model import ON_LOOM, Factory, FactoryPlan, carpet_on, left_shifted, lone_cost, sequences_of
 from ilmek.factory.yarn_stock import waiting_times
 from ilmek.progress import SILENT, Progress
 
@@ -46,11 +46,10 @@ def _dispatched(factory: Factory, order: Sequence[int]) -> FactoryPlan:
     sequences: list[list[int]] = [[] for _ in factory.looms]
     free = [0] * len(factory.looms)
     for job in order:
-        setup = factory.jobs[job].setup
         options = []
         for loom in factory.jobs[job].weaving:
-            before = sequences[loom][-1] if sequences[loom] else -1
-            same = before >= 0 and factory.jobs[before].setup == setup
+            before = sequences[loom][-1] if sequences[loom] else ON_LOOM
+            same = factory.same_setup(loom, before, job)
             end = carpet_on(factory, job, loom, max(free[loom], floors.get(job, 0)), same=same).end
             options.append((factory.loom_cost(job, loom, same=same) + factory.jobs[job].late_cost(end), end, loom))
         _, free[loom], loom = min(options)
@@ -122,8 +121,8 @@ def _moved(
 def _loom_merit(factory: Factory, loom: int, sequence: Sequence[int], floors: Mapping[int, int]) -> _Merit:
     """Cost, and sum of the ends, of the carpets of one loom."""
     free, cost, ends = 0, 0, 0
-    for before, job in itertools.pairwise((-1, *sequence)):
-        same = before >= 0 and factory.jobs[before].setup == factory.jobs[job].setup
+    for before, job in itertools.pairwise((ON_LOOM, *sequence)):
+        same = factory.same_setup(loom, before, job)
         free = carpet_on(factory, job, loom, max(free, floors.get(job, 0)), same=same).end
         cost += factory.loom_cost(job, loom, same=same) + factory.jobs[job].late_cost(free)
         ends += free

@@ -16,6 +16,9 @@ MONEY = 10_000
 HOUR = 60
 """Minutes of an hour."""
 
+ON_LOOM = -1
+"""In the place of a job: the carpet that is on a loom before it is available."""
+
 
 @dataclass(frozen=True, slots=True)
 class Loom:
@@ -25,6 +28,7 @@ class Loom:
     cost          of an hour of its work               available  from when on [min]
     dressing      time to dress it for a carpet [min]; `dressing_same`: after a carpet of the same setup
     doffing       time to take a carpet off [min]
+    setup         of the carpet that is on it before it is available; -1: none
     """
 
     name: str
@@ -35,6 +39,7 @@ class Loom:
     dressing_same: int
     doffing: int
     available: int = 0
+    setup: int = -1
 
     def dressing_time(self, *, same: bool) -> int:
         """The time to dress it [min]; `same`: after a carpet of the same setup."""
@@ -118,6 +123,17 @@ class Factory:
         on = self.looms[loom]
         return on.cost_of(on.dressing_time(same=same) + self.jobs[job].weaving[loom] + on.doffing)
 
+    def same_setup(self, loom: int, before: int, job: int) -> bool:
+        """Whether a job has the setup of the one before it on a loom, which may be ON_LOOM."""
+        return (self.looms[loom].setup if before == ON_LOOM else self.jobs[before].setup) == self.jobs[job].setup
+
+    def like(self, job: int) -> bool:
+        """Whether there is another job of its setup, or a carpet of it on a loom."""
+        setup = self.jobs[job].setup
+        return any(loom.setup == setup for loom in self.looms) or any(
+            index != job and other.setup == setup for index, other in enumerate(self.jobs)
+        )
+
     def with_loom(self, index: int, loom: Loom) -> "Factory":
         """The factory with another loom of that index."""
         return replace(self, looms=(*self.looms[:index], loom, *self.looms[index + 1 :]))
@@ -129,7 +145,7 @@ class Factory:
             replace(job, weaving={**job.weaving, new: job.weaving[index]}) if index in job.weaving else job
             for job in self.jobs
         )
-        return replace(self, looms=(*self.looms, replace(self.looms[index], name=name)), jobs=jobs)
+        return replace(self, looms=(*self.looms, replace(self.looms[index], name=name, setup=-1)), jobs=jobs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,9 +215,9 @@ def left_shifted(factory: Factory, sequences: Sequence[Sequence[int]], floors: M
     """
     carpets: dict[int, PlannedCarpet] = {}
     for loom, sequence in enumerate(sequences):
-        free, before = 0, -1
+        free, before = 0, ON_LOOM
         for job in sequence:
-            same = before >= 0 and factory.jobs[before].setup == factory.jobs[job].setup
+            same = factory.same_setup(loom, before, job)
             carpets[job] = carpet_on(factory, job, loom, max(free, floors.get(job, 0)), same=same)
             free, before = carpets[job].end, job
     return FactoryPlan(factory, tuple(carpets[job] for job in sorted(carpets)))
@@ -237,7 +253,7 @@ def lone_cost(factory: Factory, job: int) -> int:
     No plan costs less than the sum over all jobs.
     """
     what = factory.jobs[job]
-    like = any(index != job and other.setup == what.setup for index, other in enumerate(factory.jobs))
+    like = factory.like(job)
     costs = (
         factory.loom_cost(job, loom, same=like) + what.late_cost(carpet_on(factory, job, loom, 0, same=like).end)
         for loom in what.weaving

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ilmek.factory.axes import WorkAxes, gaps_after, time_before, work_axes
 from ilmek.factory.model import (
     HOUR,
+    ON_LOOM,
     Factory,
     FactoryPlan,
     PlannedCarpet,
@@ -109,16 +110,18 @@ class FactoryModel:
         for job, what in enumerate(jobs):
             if loom in what.weaving:
                 groups.setdefault(what.setup, []).append(job)
-        for members in groups.values():
-            for first in members:
+        for setup, members in groups.items():
+            before = (*members, *((ON_LOOM,) if setup == on.setup else ()))
+            for first in before:
                 pairs = {then: self.model.new_bool_var("") for then in members if then != first}
                 for then, follows in pairs.items():
                     self.follows[first, then, loom] = follows
-                    self.model.add_implication(follows, self.on[first, loom])
+                    if first != ON_LOOM:
+                        self.model.add_implication(follows, self.on[first, loom])
                     self.model.add_implication(follows, self.on[then, loom])
                 self.model.add_at_most_one(pairs.values())
             for then in members:
-                self.model.add_at_most_one(self.follows[first, then, loom] for first in members if first != then)
+                self.model.add_at_most_one(self.follows[first, then, loom] for first in before if first != then)
 
     def _dressing(self, job: int, axes: WorkAxes) -> Any:
         """The dressing time of a job as a linear expression."""
@@ -218,7 +221,9 @@ class FactoryModel:
         for (first, then, at), follows in self.follows.items():
             if at == loom:
                 gap = model.new_int_var(0, self.axes[group].weaving_total, "")
-                begin, end = self.timed[first, group].woven_end, self.timed[then, group].woven_start
+                free = self.axes[group].weaving.work(self.factory.looms[loom].available)
+                begin = free if first == ON_LOOM else self.timed[first, group].woven_end
+                end = self.timed[then, group].woven_start
                 intervals.append(model.new_optional_interval_var(begin, gap, end, follows, ""))
                 self.sizes.append((gap, first, then, group, loom))
         model.add_no_overlap(intervals)
@@ -334,14 +339,17 @@ class FactoryModel:
             self.model.add_hint(hours, late_hours(where[job].end, self.factory.jobs[job].due))
         for early, job, arrives in self.early:
             self.model.add_hint(early, where[job].start < arrives)
-        pairs = {pair for jobs in sequences_of(plan) for pair in itertools.pairwise(jobs)}
+        pairs = {pair for jobs in sequences_of(plan) for pair in itertools.pairwise((ON_LOOM, *jobs))}
         for (first, then, loom), follows in self.follows.items():
-            self.model.add_hint(follows, (first, then) in pairs and where[first].loom == loom)
+            self.model.add_hint(follows, (first, then) in pairs and where[then].loom == loom)
         for size, first, then, group, loom in self.sizes:
-            there = where[first].loom == where[then].loom == loom and (first == then or (first, then) in pairs)
-            ends = ("woven_end", "woven_start") if first == then else ("woven_start", "woven_end")
-            length = values[then, group][ends[0]] - values[first, group][ends[1]] if there else 0
-            self.model.add_hint(size, length)
+            there = where[then].loom == loom and (first == then or (first, then) in pairs)
+            begin, end = (values[then, group][name] for name in ("woven_start", "woven_end"))
+            if first != then:
+                free = self.axes[group].weaving.work(self.factory.looms[loom].available)
+                begin, end = free if first == ON_LOOM else values[first, group]["woven_end"], begin
+            length = end - begin
+            self.model.add_hint(size, length if there else 0)
 
     def _values(self, job: int, group: int, one: PlannedCarpet) -> dict[str, int]:
         """The values of the variables of a job at a plan; of one on other looms, as of a carpet without work."""

@@ -73,7 +73,8 @@ def _loom_faults(factory: Factory, carpets: Sequence[PlannedCarpet]) -> Iterator
         before = ordered[index - 1] if index else None
         if before is not None and one.start < before.end:
             yield f"carpet {one.job}: it starts at {one.start}, before carpet {before.job} is off the loom"
-        like = before is not None and factory.jobs[before.job].setup == factory.jobs[one.job].setup
+        setup = factory.looms[one.loom].setup if before is None else factory.jobs[before.job].setup
+        like = setup == factory.jobs[one.job].setup
         if one.same != like:
             yield f"carpet {one.job}: the setup of the carpet before is {'' if like else 'not '}the same"
 

@@ -46,7 +46,8 @@ def chart_digest(chart: Chart) -> str:
     colours = [(index, *chart.yarns[index].srgb) for index in chart.used]
     size, quality = (chart.size.width, chart.size.length), (chart.quality.across, chart.quality.along)
     kinds = chart.cells and [(kind.weave, kind.height, kind.loop) for kind in chart.cells.kinds]
-    digest = hashlib.sha256(repr((chart.rows, chart.columns, size, quality, colours, kinds)).encode())
+    carved = () if chart.cells is None or chart.cells.carving is None else (chart.cells.carving,)
+    digest = hashlib.sha256(repr((chart.rows, chart.columns, size, quality, colours, kinds, *carved)).encode())
     overlay, cells = chart.overlay, () if chart.cells is None else (chart.cells.index,)
     for array in (chart.knots, *cells, overlay.rows, overlay.columns, overlay.kinds, overlay.seconds):
         digest.update(np.ascontiguousarray(array).data)

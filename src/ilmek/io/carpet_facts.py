@@ -16,10 +16,14 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import LARGEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.elements.knot_kinds import WRAPS
+from ilmek.elements.yarns import MATERIALS
 from ilmek.errors import LoomError, shortened
 from ilmek.io.meta_entry import MetaEntry
 from ilmek.io.yarn_file import yarns_from_records
-from ilmek.records import record
+from ilmek.records import JsonObject, record
+
+_OPTIONAL = ("number", "material")
+"""Of a yarn, what the files of earlier versions do not have."""
 
 LONGEST_FACTS = 500_000
 """Largest number of characters of the facts of a chart: 255 yarns with names of 200 characters take 110,000."""
@@ -42,10 +46,16 @@ def chart_facts(chart: Chart) -> str:
         "size": asdict(chart.size),
         "quality": asdict(chart.quality),
         "knot": chart.knot,
-        "yarns": [asdict(yarn) for yarn in chart.yarns],
+        "yarns": [yarn_data(yarn) for yarn in chart.yarns],
         **({} if chart.creel is None else {"creel": chart.creel}),
     }
     return json.dumps(facts, ensure_ascii=False)
+
+
+def yarn_data(yarn: Yarn) -> JsonObject:
+    """A yarn as plain data, without the material where it is that of the carpet's pile."""
+    data = asdict(yarn)
+    return data if yarn.material is not None else {key: data[key] for key in data if key != "material"}
 
 
 def read_facts(text: str) -> ChartFacts:
@@ -88,14 +98,16 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
     """The yarns, by the rules of a yarn list."""
     yarn_entries = []
     for row in entry.rows(2, MOST_YARNS):
-        given = row.table(*(field.name for field in fields(Yarn) if field.name != "number"), optional=("number",))
+        given = row.table(*(one.name for one in fields(Yarn) if one.name not in _OPTIONAL), optional=_OPTIONAL)
         lightness, a, b = (part.number(-200.0, 200.0) for part in given["lab"].rows(3, 3))
         red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
         price = None if given["price"].value is None else given["price"].number()
         count = None if given["metric_count"].value is None else given["metric_count"].number()
-        numbers = count, given["ply"].whole(1, MOST_YARNS), price
+        ply = given["ply"].whole(1, MOST_YARNS)
         place = None if given["number"].value is None else given["number"].whole(1, MOST_YARNS)
-        yarn_entries.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers, place))
+        material = None if given["material"].value is None else given["material"].one_of(*MATERIALS)
+        colours = (red, green, blue), (lightness, a, b)
+        yarn_entries.append(Yarn(given["name"].text(least=1), *colours, count, ply, price, place, material))
     records = [
         {
             "name": yarn.name,
@@ -103,6 +115,7 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
             "nm": yarn.metric_count,
             "ply": None if yarn.metric_count is None and yarn.ply == 1 else yarn.ply,
             "price": yarn.price,
+            "material": yarn.material,
         }
         for yarn in yarn_entries
     ]

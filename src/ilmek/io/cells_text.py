@@ -11,7 +11,7 @@ from dataclasses import asdict, fields
 import numpy as np
 
 from ilmek.arrays import Indices
-from ilmek.carpet.cells import TALLEST, CellKind, CellMap
+from ilmek.carpet.cells import CARVED, TALLEST, Carving, CellKind, CellMap
 from ilmek.carpet.codes import CODES
 from ilmek.errors import LoomError, shortened
 from ilmek.io.meta_entry import MetaEntry
@@ -25,7 +25,9 @@ def cells_text(cells: CellMap | None) -> str:
     if cells is None:
         return ""
     index = base64.b64encode(zlib.compress(cells.index.tobytes(), 9)).decode("ascii")
-    return json.dumps({"kinds": [asdict(kind) for kind in cells.kinds], "index": index}, ensure_ascii=False)
+    carving = {} if cells.carving is None else {"carving": asdict(cells.carving)}
+    kinds = [asdict(kind) for kind in cells.kinds]
+    return json.dumps({"kinds": kinds, "index": index, **carving}, ensure_ascii=False)
 
 
 def read_cells(text: str, knots: Indices) -> CellMap | None:
@@ -36,7 +38,7 @@ def read_cells(text: str, knots: Indices) -> CellMap | None:
         raise LoomError(f"its map of cells has {len(text):,} characters", allowed=f"at most {_LONGEST:,}")
     try:
         data = json.loads(text)
-        given = MetaEntry("cells", data).table("kinds", "index")
+        given = MetaEntry("cells", data).table("kinds", "index", optional=("carving",))
         packed = base64.b64decode(str(given["index"].value), validate=True)
         reader = zlib.decompressobj()
         raw = reader.decompress(packed, knots.size + 1)
@@ -45,7 +47,16 @@ def read_cells(text: str, knots: Indices) -> CellMap | None:
     if len(raw) != knots.size or not reader.eof:
         raise LoomError("its map of cells is damaged", allowed=f"{knots.size:,} cells")
     kinds = tuple(_kind(entry) for entry in given["kinds"].rows(1, CODES - 1))
-    return CellMap(np.frombuffer(raw, np.uint8).reshape(knots.shape), kinds)
+    return CellMap(np.frombuffer(raw, np.uint8).reshape(knots.shape), kinds, _carving(given["carving"]))
+
+
+def _carving(entry: MetaEntry) -> Carving | None:
+    """The lines carved into the pile, if there are any."""
+    if entry.value is None:
+        return None
+    given = entry.table("depth", "angle", "yarns")
+    names = tuple(name.text(least=1) for name in given["yarns"].rows(0, CODES))
+    return Carving(given["depth"].number(0.0, TALLEST), given["angle"].number(*CARVED), names)
 
 
 def _kind(entry: MetaEntry) -> CellKind:

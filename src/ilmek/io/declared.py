@@ -259,7 +259,7 @@ class TableEntry(DeclaredEntry):
         others = False if self.others is None else self.others.schema(definitions)
         return {"type": "object", **{key: one for key, one in further.items() if one}, "additionalProperties": others}
 
-    def read(self, value: Any, reader: EntryReader, path: Path = ()) -> dict[str, Any]:
+    def read(self, value: Any, reader: EntryReader, path: Path = ()) -> JsonObject:
         """All keys, in the order of the file."""
         self._kind(value, dict, "a table", reader, path)
         for key, error in key_faults(value, self.entries if self.others is None else value, needs=self.required):
@@ -268,7 +268,7 @@ class TableEntry(DeclaredEntry):
             reader.refuse(path, f"has {len(value)} {path[-1]}", f"at most {self.most}")
         return {key: self.entry(key).read(one, reader, (*path, key)) for key, one in value.items()}
 
-    def given(self, record: object) -> dict[str, Any]:
+    def given(self, record: object) -> JsonObject:
         """The fields of a record that are keys of the table; those that are None are left out."""
         fields = {key: getattr(record, key, None) for key in self.entries}
         return {key: value for key, value in fields.items() if value is not None}

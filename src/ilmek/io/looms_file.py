@@ -25,6 +25,8 @@
     dressing_same = "5h"                        # after a carpet of the same width and yarns
     doffing = "90min"
     available = 2026-12-02
+    downtime = ["2026-12-07T08:00/2026-12-08T12:00"]    # maintenance, or until when a fault is mended
+    weaving = { order = "Kazak, first", run = "run-a" }  # what is on it, by its journal beside this file
 
     [[loom]]
     name = "bench"                              # a frame at which weavers tie; nothing of it is designed
@@ -34,6 +36,7 @@
     cost = "1.5 EUR/h"                          # without wages, where the orders have a wage by knots
     dressing = "20h"
     doffing = "3h"
+    weaving = { order = "Runner", rows = 210, since = 2026-11-20T06:00:00 }
 
     [[yarn]]
     name = "madder red"
@@ -55,7 +58,8 @@ from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
-from ilmek.io.factory_entry import FactoryEntry, file_beside
+from ilmek.io.factory_entry import FactoryEntry, datetime_of, file_beside
+from ilmek.io.journal_folder import JOURNAL
 from ilmek.io.schema import SourceText, shown
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.params import Setting
@@ -69,6 +73,12 @@ MOST_SHIFTS = 50
 
 MOST_BREAKS = 10
 """Largest number of breaks of a shift."""
+
+MOST_DOWNTIMES = 100
+"""Largest number of times in which a loom does not work."""
+
+MOST_ROWS = 1_000_000
+"""Largest number of rows that are woven of a carpet."""
 
 MOST_HOLIDAYS = 500
 """Largest number of holidays of a file."""
@@ -107,11 +117,26 @@ class WeaversLoom:
 
 
 @dataclass(frozen=True, slots=True)
+class WeavingEntry:
+    """What is on a loom: the name of its order, and how far it is.
+
+    run    folder of its run, whose journal counts rows and time; else
+    rows   that are woven                     since  begin of their weaving; None: their pace is that of the design
+    """
+
+    order: str
+    run: Path | None = None
+    rows: int = 0
+    since: datetime | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class LoomEntry:
     """A loom: its file, or the parameters of its design; times [s], cost [currency/s], share of its time lost.
 
     hand       a frame at which weavers tie, in the place of both
     available  from when on; None: from the begin of the plan      where  file and line, for messages
+    downtime   begin and end of each time in which it does not work      weaving  what is on it
     """
 
     name: str
@@ -126,6 +151,8 @@ class LoomEntry:
     available: datetime | None
     where: str
     hand: WeaversLoom | None = None
+    downtime: tuple[tuple[datetime, datetime], ...] = ()
+    weaving: WeavingEntry | None = None
 
     def __hash__(self) -> int:
         return hash((self.name, self.where))
@@ -224,6 +251,7 @@ def _days(row: FactoryEntry) -> frozenset[int]:
 _LOOM_KEYS = (
     "name", "file", "design", "weavers", "width", "knots_a_day",
     "shifts", "cost", "stops", "dressing", "dressing_same", "doffing", "available",
+    "downtime", "weaving",
 )  # fmt: skip
 
 
@@ -258,7 +286,46 @@ def _loom(row: FactoryEntry, path: Path, currency: str, shifts: tuple[ShiftEntry
         row.instant("available") if row.has("available") else None,
         f"{path}, line {line}",
         _hand(row),
+        _downtime(row),
+        _weaving(row, path.parent) if row.has("weaving") else None,
     )
+
+
+def _downtime(row: FactoryEntry) -> tuple[tuple[datetime, datetime], ...]:
+    given = row.data.get("downtime", [])
+    if not isinstance(given, list) or len(given) > MOST_DOWNTIMES or not all(isinstance(text, str) for text in given):
+        row.refuse(ParameterError(f"{shown(given)} is no list of at most {MOST_DOWNTIMES} times"), "downtime")
+    times = []
+    for text in given:
+        ends = text.split("/")
+        if len(ends) != 2:
+            do = 'write it like "2026-12-07T08:00/2026-12-08T12:00"'
+            row.refuse(ParameterError(f"{shown(text)} is no begin and end", do=do), "downtime")
+        try:
+            begin, end = datetime_of(ends[0].strip()), datetime_of(ends[1].strip(), late=True)
+        except ParameterError as error:
+            row.refuse(error, "downtime")
+        if end <= begin:
+            row.refuse(ParameterError(f"{shown(text)} ends before it begins", do="exchange both"), "downtime")
+        times.append((begin, end))
+    return tuple(times)
+
+
+def _weaving(row: FactoryEntry, folder: Path) -> WeavingEntry:
+    entry = row.table("weaving")
+    entry.keys("order", "run", "rows", "since", needs=("order",))
+    if entry.has("run") == entry.has("rows"):
+        entry.refuse(ParameterError("is of none or of both of run and rows", allowed="one of them"))
+    if not entry.has("run"):
+        since = entry.instant("since") if entry.has("since") else None
+        return WeavingEntry(entry.label("order"), None, entry.count("rows", 0, 0, MOST_ROWS), since)
+    if entry.has("since"):
+        entry.refuse(ParameterError("since of a run", do="leave it out: its journal has the time"), "since")
+    try:
+        journal = file_beside(folder, f"{entry.text('run')}/{JOURNAL}", "looms")
+    except ParameterError as error:
+        entry.refuse(error, "run")
+    return WeavingEntry(entry.label("order"), journal.parent)
 
 
 def _hand(row: FactoryEntry) -> WeaversLoom | None:

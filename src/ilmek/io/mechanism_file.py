@@ -114,7 +114,7 @@ def read_mechanism(path: Path, values: Mapping[str, str | float] = MappingProxyT
     return _read(text._replace(data=with_values(text.data, values)) if values else text, str(path))
 
 
-def with_values(data: Any, values: Mapping[str, object]) -> dict[str, Any]:
+def with_values(data: Any, values: Mapping[str, object]) -> JsonObject:
     """Data of a file with other entries in its table `values`. Raises MechanismError, naming the nearest."""
     known = data.get("values", {}) if isinstance(data, Mapping) else {}
     for name in values:

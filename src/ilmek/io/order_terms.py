@@ -14,6 +14,7 @@ colours = 8                                 # a supplement for each further colo
 supplement = "2%"
 advance = "20%"
 rows = 100                                  # a payment after each 100 rows
+flat_weave = "10%"                          # of the wage of a knot, for a cell of flat weave
 
 [[order.colourway]]
 name = "indigo"
@@ -59,7 +60,8 @@ def read_wage(root: FactoryEntry, currency: str) -> WageRules | None:
     if not root.has("wage"):
         return None
     row, usual = root.table("wage"), WageRules(0.0)
-    row.keys("amount", "knots", "colours", "supplement", "advance", "rows", "region", needs=("amount",))
+    keys = ("amount", "knots", "colours", "supplement", "advance", "rows", "region", "flat_weave")
+    row.keys(*keys, needs=("amount",))
     return WageRules(
         row.money("amount", currency) or 0.0,
         row.count("knots", usual.knots, 1, _LARGEST_COUNT),
@@ -68,6 +70,7 @@ def read_wage(root: FactoryEntry, currency: str) -> WageRules | None:
         row.measured("advance", "%", usual.advance, most=1.0),
         row.count("rows", usual.rows, 0, _LARGEST_COUNT),
         row.label("region") if row.has("region") else usual.region,
+        row.measured("flat_weave", "%", usual.flat, most=10.0),
     )
 
 

@@ -2,7 +2,7 @@
 
     start = 2026-12-01T06:00:00                 # begin of the plan, local time
     currency = "EUR"
-    late = "40 EUR/d"                           # of an order that sets none; by the started hour
+    late = "40 EUR/d"                           # of an order that sets none, by the started hour; default: 1 EUR/d
 
     [[order]]
     name = "Kazak, first"
@@ -39,11 +39,15 @@ from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import SHIPPED
 from ilmek.params import Parameter, Setting
 from ilmek.sentences import DEFAULT, WEAVERS
+from ilmek.units import hour
 
 MOST_ORDERS = 500
 """Largest number of orders of a file, and of carpets in all of them."""
 
 MOST_PRIORITY = 100
+
+LATE = 1 / (24 * hour)
+"""Cost of delay where a file states none: one of its currency a day, so that it counts at all [1/s]."""
 
 ORDER_KEYS = ("name", "picture", "programme", "quantity", "due", "earliest", "late", "priority")
 CARPET_KEYS = ("size", "sizes", "quality", "knot", "yarns", "colourway")
@@ -114,6 +118,7 @@ def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter])
     root.keys("start", "currency", "late", "order", *terms, needs=("start", "order"))
     currency, start = root.currency(EURO), root.instant("start")
     late = root.money("late", currency, "d")
+    late = LATE if late is None else late
     rows = root.rows("order")
     if not 1 <= len(rows) <= MOST_ORDERS:
         root.refuse(ParameterError(f"has {len(rows)} orders", allowed=f"1 to {MOST_ORDERS}"), "order")
@@ -156,7 +161,7 @@ class _OrderReader:
     path: Path
     start: datetime
     money: str
-    late: float | None
+    late: float
     parameters: Mapping[str, Parameter]
 
     def orders(self, row: FactoryEntry) -> Iterator[FactoryOrder]:
@@ -197,7 +202,7 @@ class _OrderReader:
         if row.has("picture") == row.has("programme"):
             given = "has both picture and programme" if row.has("picture") else "has neither picture nor programme"
             row.refuse(ParameterError(given, do="give one of the two"))
-        programme = self.file(row, "programme")
+        programme, late = self.file(row, "programme"), row.money("late", self.money, "d")
         for key in (*CARPET_KEYS, *self.parameters):
             if programme is not None and row.has(key):
                 row.refuse(ParameterError(f"{key} of a programme cannot be set", do=f"leave {key} out"), key)
@@ -208,21 +213,13 @@ class _OrderReader:
             row.count("quantity", 1, 1, MOST_ORDERS),
             max(row.instant("earliest", self.start), self.start),
             row.instant("due", late=True),
-            self._late(row),
+            self.late if late is None else late,
             row.count("priority", 1, 1, MOST_PRIORITY),
             {} if programme is not None else _settings(row, self.parameters),
             self._yarns(row),
             f"{self.path}, line {row.source.lines.get(row.path, 1)}",
             row.label("name"),
         )
-
-    def _late(self, row: FactoryEntry) -> float:
-        own = row.money("late", self.money, "d")
-        cost = self.late if own is None else own
-        if cost is None:
-            do = f'write late = "40 {self.money}/d", here or for all orders'
-            row.refuse(ParameterError("has no cost of delay", do=do))
-        return cost
 
     def file(self, row: FactoryEntry, key: str) -> Path | None:
         """The file of a key in the folder of the orders; None where it is missing."""

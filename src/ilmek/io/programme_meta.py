@@ -19,10 +19,10 @@ import numpy as np
 from ilmek.arrays import FloatArray, UInt8
 from ilmek.cams.laws import law_of
 from ilmek.carpet.design import MOST_KNOTS
-from ilmek.carpet.yarn import MOST_YARNS
+from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError, shortened
-from ilmek.io.carpet_facts import quality_entry, size_entry, yarn_entries
+from ilmek.io.carpet_facts import quality_entry, size_entry, yarn_data, yarn_entries
 from ilmek.io.meta_entry import MetaEntry
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
 from ilmek.loom.bobbins import Bobbin
@@ -71,6 +71,8 @@ def _plain(value: Any) -> Any:
         return value.tolist()
     if isinstance(value, tuple):
         return [_plain(one) for one in value]
+    if isinstance(value, Yarn):
+        return yarn_data(value)
     return value if isinstance(value, str | int | float) else asdict(value)
 
 

@@ -293,7 +293,7 @@ class _RecipeReader:
         return Repeat(tile, *sides, order, entry.flag("cut"), self._where(entry))
 
     def _border(self, entry: FileEntry) -> Border:
-        entry.keys("width", "yarn", "teeth", "tile", "length", "corner", "alternate", "adjust")
+        entry.keys("width", "yarn", "teeth", "tile", "length", "corner", "alternate", "adjust", "pile")
         kinds = [key for key in ("yarn", "teeth", "tile") if entry.has(key)]
         if len(kinds) != 1:
             given = f"has {' and '.join(kinds)}" if kinds else "has nothing to be made of"
@@ -312,17 +312,19 @@ class _RecipeReader:
             self._file(entry, "corner"),
             entry.flag("alternate"),
             entry.flag("adjust"),
+            entry.text("pile", ""),
             self._where(entry),
         )
 
     def _motif(self, entry: FileEntry) -> Motif:
-        entry.keys("picture", "position", "mirror", "width", "length", "transparent", needs=("picture",))
+        entry.keys("picture", "position", "mirror", "width", "length", "transparent", "pile", needs=("picture",))
         picture = self._file(entry, "picture")
         assert picture is not None
         sides = _knots(entry, "width"), _knots(entry, "length")
         mirror = _choice(entry, "mirror", MIRRORS)
         where = self._where(entry)
-        return Motif(picture, _position(entry), mirror, *sides, entry.text("transparent", ""), where)
+        texts = entry.text("transparent", ""), entry.text("pile", "")
+        return Motif(picture, _position(entry), mirror, *sides, *texts, where)
 
 
 def file_inside(folder: Path, text: str) -> Path:

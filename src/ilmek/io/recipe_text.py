@@ -54,7 +54,8 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
     if loom.loom:
         parts.append(toml_section(("loom",), loom.loom))
     if made.yarns is not None and "yarns" not in {key for key, value in data.items() if value is not None}:
-        parts += [toml_section(("yarn",), _yarn(yarn), many=True) for yarn in made.yarns]
+        yarns = (_yarn(yarn, place) for place, yarn in enumerate(made.yarns, start=1))
+        parts += [toml_section(("yarn",), entry, many=True) for entry in yarns]
     return "\n\n".join(parts) + "\n"
 
 
@@ -94,10 +95,12 @@ def _same(one: CarpetSize, other: CarpetSize) -> bool:
     return (one.width, one.length) == (other.width, other.length)
 
 
-def _yarn(yarn: Yarn) -> Table:
-    """A yarn as an entry of a yarn list."""
+def _yarn(yarn: Yarn, place: int) -> Table:
+    """A yarn as an entry of a yarn list, in which it has a place from 1."""
     lab = tuple(srgb_to_lab(np.array(yarn.srgb, dtype=np.uint8)).tolist())
     colour: dict[str, Json] = {"srgb": yarn.hex} if lab == yarn.lab else {"lab": list(yarn.lab)}
     count = {} if yarn.metric_count is None else {"nm": yarn.metric_count, "ply": yarn.ply}
     price = {} if yarn.price is None else {"price": yarn.price}
-    return {"name": yarn.name, **colour, **count, **price}
+    number = {} if yarn.number in (None, place) else {"number": yarn.number}
+    material = {} if yarn.material is None else {"material": yarn.material}
+    return {"name": yarn.name, **colour, **count, **price, **number, **material}

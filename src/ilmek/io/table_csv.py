@@ -65,5 +65,7 @@ def check_size(rows: int, columns: int, option: str, error: type[IlmekError]) ->
         )
 
 
-def _cell(value: float) -> str:
+def _cell(value: float | str) -> str:
+    if isinstance(value, str):
+        return value
     return repr(value) if math.isfinite(value) else ""

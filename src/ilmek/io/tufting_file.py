@@ -26,7 +26,7 @@ HEAD = "ilmek tufting 1"
 LARGEST = 500_000_000
 """Largest size of a file [bytes]: of a carpet of 5 m by 12 m in 16 colours."""
 
-_GRID = ("gauge", "stitch", "height", "hidden", "backing")
+_GRID = ("gauge", "stitch", "height", "low", "hidden", "backing")
 """Lengths of the grid."""
 
 _COUNTS = ("back", "advance", "rows", "columns", "needles", "first")

@@ -7,9 +7,10 @@
     ply = 3
     price = 14.5              # per kilogram; optional
     number = 12               # of the shelf, 1 to 255; its symbol belongs to it; default: its place in the list
+    material = "silk"         # wool, silk or cotton; default: that of the carpet's pile
 
-A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price, number; separated by commas, semicolons or
-tabs.
+A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price, number, material; separated by commas,
+semicolons or tabs.
 They stand in any order. Empty lines are ignored, and lines that begin with # above the header; below it every line is a
 yarn.
 
@@ -17,7 +18,8 @@ A palette of GIMP (.gpl) has a colour and a name on each line. Names are made un
 count follows from the quality of the carpet.
 
 A record is one yarn as read from the file: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]),
-`nm`, `ply`, `price` and `number`, numbers or texts. Prices are per kilogram, in the currency of the yarn plan.
+`nm`, `ply`, `price` and `number`, numbers or texts, and `material`. Prices are per kilogram, in the currency of the
+yarn plan.
 """
 
 import re
@@ -33,6 +35,7 @@ import numpy as np
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
+from ilmek.elements.yarns import MATERIALS
 from ilmek.errors import JOINERS, YarnError, did_you_mean, is_printable, restated, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
@@ -48,7 +51,7 @@ Record: TypeAlias = Mapping[str, object]
 GPL_HEADING = "GIMP Palette"
 _GPL_COLOUR = re.compile(r"\s*(\d{1,3})\s+(\d{1,3})\s+(\d{1,3})(?:\s+(.*))?")
 
-FIELDS = ("name", "srgb", "lab", "nm", "ply", "price", "number")
+FIELDS = ("name", "srgb", "lab", "nm", "ply", "price", "number", "material")
 
 _WHOLE = ("ply", "number")
 
@@ -110,7 +113,7 @@ def _csv_yarns(text: str) -> tuple[Yarn, ...]:
 
 
 def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
-    if name in ("name", "srgb"):
+    if name in ("name", "srgb", "material"):
         return cell
     numbers = decimal_points(cell.strip("[]()"), delimiter)
     try:
@@ -226,7 +229,17 @@ def _yarn(record: Record, numbered: str) -> Yarn:
     if place is not None and place != round(place):
         raise YarnError(f"{called}: number {place:g} is not a whole number", allowed=f"1 to {MOST_YARNS}")
     number = None if place is None else round(place)
-    return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), _number(record, "price", called), number)
+    price, material = _number(record, "price", called), _material(record, called)
+    return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), price, number, material)
+
+
+def _material(record: Record, called: str) -> str | None:
+    """The material of a record; None if it is missing or empty."""
+    given = str(record.get("material") or "").strip().lower() or None
+    if given is not None and given not in MATERIALS:
+        hint = did_you_mean(given, MATERIALS)
+        raise YarnError(f"{called}: material {shortened(given)!r} is unknown", allowed=", ".join(MATERIALS), do=hint)
+    return given
 
 
 def _no_count(called: str) -> YarnError:

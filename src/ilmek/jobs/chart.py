@@ -8,12 +8,14 @@ from typing import Any
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
-from ilmek.carpet.cells import CellMap
+from ilmek.carpet.carving import carved_length
+from ilmek.carpet.cells import PILE, CellMap
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.construction import CarpetConstruction, construction_of
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
-from ilmek.carpet.pile import PileParams, fill_check, pile_fill
+from ilmek.carpet.pile import PileParams, fill_check, knot_length, of_kind, of_yarn, pile_fill
 from ilmek.carpet.recipe.outcome import edit_checks
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
@@ -61,6 +63,7 @@ class ChartResult:
     source      the fitted picture, made small; None of a chart as input, and where it is not wanted
     whole       the same of the picture before it was cropped to the carpet's proportions; None where it was not
     ground      of the loom, where there is one
+    name        of the carpet in its order, colourway included; ""
     """
 
     order: ResolvedOrder
@@ -71,11 +74,18 @@ class ChartResult:
     source: Rgb | None = None
     whole: Rgb | None = None
     ground: GroundParams | None = None
+    name: str = ""
 
     @property
     def pile(self) -> PileParams:
         """The parameters of the pile."""
         return self.order.order.plan.pile(self.chart.quality)
+
+    @property
+    def construction(self) -> CarpetConstruction:
+        """Outline, binding, flat weave and the heights of the pile."""
+        order = self.order.order
+        return construction_of(self.chart, self.bill, order.shape, order.plan)
 
     @property
     def usual_counts(self) -> bool:
@@ -104,17 +114,34 @@ class ChartResult:
         """What the printed files have besides the chart."""
         ground = self.order.order.plan.ground(self.ground)
         files = self.order.order.files
-        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang)
+        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang, self.name)
 
     @property
     def thickest(self) -> Yarn:
-        """The thickest yarn that is used."""
-        return max((self.chart.yarns[yarn] for yarn in self.chart.used), key=lambda yarn: yarn.linear_density)
+        """The yarn that fills most of the ground, of those that are used."""
+        return max((self.chart.yarns[yarn] for yarn in self.chart.used), key=self.fill)
+
+    @property
+    def knot_yarns(self) -> tuple[float, ...]:
+        """The pile yarn of a knot of each yarn of the chart in its highest pile [m]."""
+        knot, quality, pile = self.chart.knot, self.chart.quality, self.highest
+        return tuple(knot_length(knot, quality, yarn.linear_density, of_yarn(pile, yarn)) for yarn in self.chart.yarns)
+
+    @property
+    def highest(self) -> PileParams:
+        """The parameters of the highest pile of the chart's knots."""
+        cells = self.chart.cells
+        kinds = (PILE,) if cells is None else (kind for kind in cells.kinds if kind.knotted)
+        return max((of_kind(self.pile, kind) for kind in kinds), key=lambda pile: pile.pile_height)
+
+    def fill(self, yarn: Yarn) -> float:
+        """Share of the ground that a yarn fills [-]."""
+        return pile_fill(self.chart.quality, yarn.linear_density, of_yarn(self.pile, yarn))
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """The ground that the pile fills; what the chart keeps of the picture; the edge of a sheet; edits left out."""
-        fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
+        fill = fill_check(self.fill(self.thickest))
         kept = kept_checks(self.chart, self.order.order)
         paper = paper_checks(self.chart)
         return (fill, *kept, *paper, *edit_checks(self.chart.reading.edits))
@@ -210,6 +237,7 @@ def chart_results(charted: ChartResult) -> dict[str, Json]:
         "columns": chart.columns,
         "knots": chart.tally().knots,
         "cells": [] if chart.cells is None else _cells(chart.cells),
+        "carving": _carving(charted),
         "finished_area": bill.area,
         "edge_length": bill.edge,
         "colours": chart.colours,
@@ -248,6 +276,15 @@ def _cells(cells: CellMap) -> list[Json]:
     return [{**asdict(kind), "cells": count} for kind, count in zip(cells.kinds, cells.counts, strict=True)]
 
 
+def _carving(charted: ChartResult) -> JsonObject | None:
+    """The lines that are carved, and the yarn that is cut away; None: there are none."""
+    cells = charted.chart.cells
+    if cells is None or cells.carving is None:
+        return None
+    mass = sum(need.carved for need in charted.bill.pile)
+    return {**asdict(cells.carving), "length": carved_length(charted.chart), "mass": mass}
+
+
 def _statistics(charted: ChartResult) -> dict[str, Json]:
     chart, found = charted.chart, charted.statistics
     return {
@@ -267,7 +304,7 @@ def fit_results(fit: Fit) -> dict[str, Json]:
     return {field.name: getattr(fit, field.name) for field in fields(fit)}
 
 
-_NEED = ("name", "use", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
+_NEED = ("name", "use", "material", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
 
 
 def _need(need: YarnNeed) -> dict[str, Json]:

@@ -12,7 +12,7 @@ from ilmek.io.output import Outputs, joined
 from ilmek.jobs.chart import ChartResult, job_json
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for_tufts, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.tufting_gun.design import TuftedByGun, tufted_by_gun
 from ilmek.machines.tufting_gun.params import TuftingGunParams
@@ -105,7 +105,7 @@ def weave_by_gun(
 def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progress = SILENT) -> GunResult:
     """The plan of a carpet by a gun; nothing is written."""
     per_metre = CELLS / gun.params.row_spacing
-    charted = charted_for_tufts(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6))
+    charted = charted_for(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6), noun="tufting by a gun")
     chart = charted.chart
     size = (chart.columns / per_metre, chart.rows / per_metre)
     params, rows = gun.params, progress.part(0.6, 1.0)

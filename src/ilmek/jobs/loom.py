@@ -7,7 +7,6 @@ from pathlib import Path
 from types import MappingProxyType
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.pile import knot_length, of_kind
 from ilmek.carpet.recipe.edits import located
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.recipe_file import LoomKeys
@@ -34,7 +33,10 @@ from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines import hand_loom
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
+from ilmek.machines.automated_loom.knotting import CAMS
+from ilmek.machines.automated_loom.offers import branches
 from ilmek.machines.automated_loom.report import analyse
+from ilmek.machines.automated_loom.search import SearchJournal
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.hand_loom import HandLoom
 from ilmek.machines.weaver_hands import HAND
@@ -238,7 +240,7 @@ def make_loomed(
     if loom_order.existing is not None:
         return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
-        carpet = CarpetPile(chart, knot_yarns(charted))
+        carpet = CarpetPile(chart, charted.knot_yarns)
         if (by_hand := MACHINE.variant(params)) is not None:
             return _by_hand(*by_hand, chart, illustrated=illustrated, assembled=assembled)
         if params.knotting == HAND:
@@ -297,7 +299,7 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
     """The loom that exists, with what the chart needs of it as checks; a programme where it fits."""
     chart, yarns = charted.chart, params_for(loom_order, charted).yarns
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or existing.design.heads)
-    checks = carpet_checks(existing, chart, heads, yarns, yarn_of_a_knot(charted))
+    checks = carpet_checks(existing, chart, heads, yarns, max(charted.knot_yarns))
     row_pitch = lengthening(existing, yarns) / chart.quality.along
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
@@ -308,7 +310,7 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
         checks = (*checks, *deadline_checks(loom_order.deadline, time))
         return LoomResult(existing.report, checks, made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
-    carpet = CarpetPile(chart, knot_yarns(charted))
+    carpet = CarpetPile(chart, charted.knot_yarns)
     bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
     programme = _programme(made, carpet, heads, bobbins, progress.part(0.0, 1.0, "programme"))
     checks = (*checks, *deadline_checks(loom_order.deadline, programme.duration))
@@ -345,22 +347,11 @@ def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomPara
         knot=chart.knot,
         yarns=replace(loom_order.params.yarns, pile_density=heaviest),
         colours=chart.colours,
-        knot_yarn=yarn_of_a_knot(charted),
-        pile_height=max(of_kind(charted.pile, kind).pile_height for kind, _ in chart.tied_by_kind),
+        knot_yarn=max(charted.knot_yarns),
+        pile_height=charted.highest.pile_height,
         changes_per_knot=min(1.0, chart.changes_per_knot),
         knotted_share=knotted_share(chart),
     )
-
-
-def knot_yarns(charted: ChartResult) -> tuple[float, ...]:
-    """The pile yarn of a knot of each yarn of a chart [m]."""
-    chart, pile = charted.chart, charted.pile
-    return tuple(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
-
-
-def yarn_of_a_knot(charted: ChartResult) -> float:
-    """The longest pile yarn of a knot of a chart [m]."""
-    return max(knot_yarns(charted))
 
 
 def deadline_checks(deadline: float | None, time: float) -> tuple[Check, ...]:
@@ -380,11 +371,11 @@ def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
 
 
 def _can_be_designed(params: AutomatedLoomParams) -> bool:
+    """Whether there is a loom to choose, good or not: the slowest one with some carrier of the weft and some beat."""
     try:
-        design(params)
+        return any(branch.looms for branch in branches(params, CAMS, SearchJournal()))
     except IlmekError:
         return False
-    return True
 
 
 def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.carving import carved_length
 from ilmek.carpet.chart import Chart
 from ilmek.jobs.loom import LoomResult
 from ilmek.machines.automated_loom import AutomatedLoomParams
@@ -56,6 +57,7 @@ class Making:
             loom,
             knots=chart.tally().knots,
             area=self.bill.area,
+            carved=carved_length(chart),
             time=time,
             energy=loom.energy * time / loom.time,
             dressing=float(self.warping.dressing_time),

@@ -1,30 +1,32 @@
 """Plan a factory: several carpets on looms that exist, which loom weaves what when, and at what cost."""
 
-import math
 import time
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import field, replace
+from datetime import datetime, timedelta
 from pathlib import Path
 
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import LoomError, ParameterError, did_you_mean
 from ilmek.factory.annealing import annealed_plan
 from ilmek.factory.heuristic import first_plan
-from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
+from ilmek.factory.model import MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
 from ilmek.factory.solver import SolvedPlan, import_solver, solve
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import Purchase, purchases
 from ilmek.io.looms_file import read_looms
-from ilmek.io.orders_file import read_orders
-from ilmek.jobs.chart import job_json
+from ilmek.io.orders_file import FactoryOrders, read_orders
+from ilmek.io.plan_file import read_ends
 from ilmek.jobs.order import recipe_parameters
-from ilmek.jobs.plan_inputs import FactoryInputs, PlannedOrder, read_inputs
+from ilmek.jobs.plan_begun import BegunCarpet
+from ilmek.jobs.plan_fits import PlannedOrder
+from ilmek.jobs.plan_inputs import FactoryInputs, read_inputs
 from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
 from ilmek.progress import SILENT, Progress
-from ilmek.records import JsonObject, record
-from ilmek.report import Check, Json, at_most
-from ilmek.units import g, minute, parse_quantity
+from ilmek.records import record
+from ilmek.report import Check, at_most
+from ilmek.units import minute, parse_quantity
 
 MOVES = 4_000
 """Moves of the annealing in a second of the time limit: it takes about a quarter of it."""
@@ -61,6 +63,7 @@ class PlanResult:
     late       the late orders, those whose delay costs most first; measures for at most MOST_RESCUED of them
     purchases  yarn to buy
     ended      whether the time limit ended the search of measures
+    before     ends of the orders in an earlier plan, by name
     """
 
     inputs: FactoryInputs
@@ -69,6 +72,7 @@ class PlanResult:
     purchases: tuple[Purchase, ...]
     time_limit: float
     ended: bool = False
+    before: Mapping[str, datetime] = field(default_factory=dict)
 
     @property
     def plan(self) -> FactoryPlan:
@@ -88,6 +92,14 @@ class PlanResult:
             (carpet for carpet in self.plan.carpets if carpet.job in jobs), key=lambda one: (one.start, one.end)
         )
 
+    def begun(self, order: int) -> list[BegunCarpet]:
+        """The carpets of an order that are on looms when the plan begins."""
+        return [carpet for carpet in self.inputs.begun if carpet.order == order]
+
+    def end(self, order: int) -> int | None:
+        """The end of an order's last carpet [min]; None where it is not woven."""
+        return max((carpet.end for carpet in (*self.carpets(order), *self.begun(order))), default=None)
+
     def cost(self, carpet: PlannedCarpet) -> int:
         """The cost of a carpet: of its loom and its delay."""
         factory = self.inputs.factory
@@ -96,8 +108,8 @@ class PlanResult:
 
     def overdue(self, order: int) -> int:
         """The delay of an order's last carpet [min]."""
-        jobs = self.inputs.factory.jobs
-        return max((max(carpet.end - jobs[carpet.job].due, 0) for carpet in self.carpets(order)), default=0)
+        end, due = self.end(order), self.inputs.orders[order].entry.due
+        return 0 if end is None else max(end - (due - self.inputs.origin) // timedelta(minutes=1), 0)
 
     def steps(self, carpet: PlannedCarpet) -> tuple[MakingStep, ...]:
         """The steps of making of a carpet: on the loom at the file's cost; after it at the loom's rates, in euros."""
@@ -179,18 +191,28 @@ def default_limit(carpets: int) -> float:
 
 
 def plan_factory(
-    orders: Path, looms: Path, *, time_limit: float | None = None, progress: Progress = SILENT
+    orders: Path,
+    looms: Path,
+    *,
+    time_limit: float | None = None,
+    now: datetime | None = None,
+    against: Path | None = None,
+    progress: Progress = SILENT,
 ) -> PlanResult:
     """Plan the orders of a file on the looms of another.
 
     time_limit  [s]; default: `default_limit` of the carpets
+    now         begin of the plan in the place of the file's: what is on the looms stays there
+    against     JSON of an earlier plan, with whose ends those of the orders are compared
     Raises an IlmekError for files that cannot be read, LoomError for a plan that fails its verification.
     """
     import_solver()
-    inputs = read_inputs(read_orders(orders, recipe_parameters()), read_looms(looms), progress.part(0.0, 0.3))
+    before = {} if against is None else read_ends(against)
+    ordered = _from_now(read_orders(orders, recipe_parameters()), now)
+    inputs = read_inputs(ordered, read_looms(looms), progress.part(0.0, 0.3))
     limit = default_limit(len(inputs.factory.jobs)) if time_limit is None else time_limit
     if not inputs.factory.jobs:
-        return PlanResult(inputs, None, (), (), limit)
+        return PlanResult(inputs, None, (), (), limit, before=before)
     begun = time.monotonic()
     first = first_plan(inputs.factory, progress.part(0.3, 0.35, "first plan"))
     annealed_by = begun + ANNEALING_SHARE * limit
@@ -208,8 +230,16 @@ def plan_factory(
     faults = plan_faults(solved.plan, solved.plan.cost)
     if faults:
         raise LoomError(f"the plan does not hold: {faults[0]}", do="report this with both files")
-    done = PlanResult(inputs, solved, (), purchases(solved.plan), limit)
+    done = PlanResult(inputs, solved, (), purchases(solved.plan), limit, before=before)
     return _with_measures(done, begun + limit, progress.part(0.8, 1.0, "late orders"))
+
+
+def _from_now(orders: FactoryOrders, now: datetime | None) -> FactoryOrders:
+    """The orders with another begin of the plan."""
+    if now is None:
+        return orders
+    later = tuple(replace(order, earliest=max(order.earliest, now)) for order in orders.orders)
+    return replace(orders, start=now, orders=later)
 
 
 def _with_measures(done: PlanResult, deadline: float, progress: Progress) -> PlanResult:
@@ -218,7 +248,7 @@ def _with_measures(done: PlanResult, deadline: float, progress: Progress) -> Pla
     costs = {
         index: sum(jobs[carpet.job].late_cost(carpet.end) for carpet in done.carpets(index))
         for index in range(len(done.inputs.orders))
-        if done.overdue(index)
+        if plan.late.intersection(done.inputs.jobs[index])
     }
     found = []
     for number, order in enumerate(sorted(costs, key=lambda index: (-costs[index], index))):
@@ -241,7 +271,7 @@ def rescue_text(done: PlanResult, rescue: Rescue) -> str:
     factory = rescue.plan.factory
     loom = done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else ""
     until = f"until {done.inputs.time(rescue.until):%Y-%m-%d}"
-    hours = f"{rescue.hours} h"
+    hours, later = f"{rescue.hours} h", rescue.until + HOUR * rescue.hours
     texts = {
         "put first": "put it before orders that are late anyway",
         "overtime": f"{hours} overtime a day on loom {loom} {until}",
@@ -249,149 +279,6 @@ def rescue_text(done: PlanResult, rescue: Rescue) -> str:
         "another loom": f"one more loom like {loom}, {len(factory.looms)} in all",
         "earlier start": f"start it {hours} earlier",
         "yarn at once": "get its yarn without lead time",
-        "later due date": f"agree a due date {hours} later",
+        "later due date": f"agree the due date {done.inputs.time(later):%Y-%m-%d %H:%M}, {hours} later",
     }
     return texts[rescue.kind]
-
-
-def plan_results(done: PlanResult) -> JsonObject:
-    """The results by their JSON names, SI; money in the currency, times as local dates."""
-    solved, plan = done.solved, done.plan
-    return {
-        "orders": [_order_json(done, index) for index in range(len(done.inputs.orders))],
-        "bound": None if solved is None else solved.bound / MONEY,
-        "cost": plan.cost / MONEY,
-        "loom_cost": plan.loom_costs / MONEY,
-        "late_cost": plan.late_costs / MONEY,
-        "gap": done.gap,
-        "currency": done.inputs.orders_file.currency,
-        "status": "none" if solved is None else solved.status,
-        "repeatable": solved is None or (solved.repeatable and not done.ended),
-        "horizon": None if solved is None else _iso(done, solved.horizon),
-        "looms": [_loom_json(done, index) for index in range(len(done.inputs.factory.looms))],
-        "late_orders": [
-            {
-                "name": done.inputs.orders[one.order].entry.name,
-                "measures": [_rescue_json(done, rescue) for rescue in one.rescues],
-            }
-            for one in done.late
-        ],
-        "yarn": [purchase_json(done, purchase) for purchase in done.purchases],
-        "yarn_price": _yarn_price(done),
-    }
-
-
-def _iso(done: PlanResult, minutes: int) -> str:
-    return done.inputs.time(minutes).isoformat(timespec="minutes")
-
-
-def _order_json(done: PlanResult, index: int) -> dict[str, Json]:
-    entry, carpets = done.inputs.orders[index].entry, done.carpets(index)
-    looms = done.inputs.factory.looms
-    return {
-        "name": entry.name,
-        "loom": ", ".join(dict.fromkeys(looms[carpet.loom].name for carpet in carpets)) or None,
-        "start": _iso(done, carpets[0].start) if carpets else None,
-        "end": _iso(done, max(carpet.end for carpet in carpets)) if carpets else None,
-        "cost": sum(map(done.cost, carpets)) / MONEY if carpets else None,
-        "late": minute * done.overdue(index) if carpets else None,
-        "due": entry.due.isoformat(timespec="minutes"),
-        "woven": bool(carpets),
-        "quantity": entry.quantity,
-        "carpets": [_carpet_json(done, carpet) for carpet in carpets],
-    }
-
-
-def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Json]:
-    factory, steps = done.inputs.factory, done.steps(one)
-    finishing = sum(step.time or 0.0 for step in steps[len(ON_LOOM) :])
-    return {
-        "loom": factory.looms[one.loom].name,
-        "start": _iso(done, one.start),
-        "dressed": _iso(done, one.dressed),
-        "woven": _iso(done, one.woven),
-        "end": _iso(done, one.end),
-        "finished": _iso(done, one.end + math.ceil(finishing / minute)),
-        "making_steps": [step.as_json() for step in steps],
-        "weaving_time": minute * factory.jobs[one.job].weaving[one.loom],
-        "same_setup": one.same,
-        "cost": done.cost(one) / MONEY,
-        "late": minute * max(one.end - factory.jobs[one.job].due, 0),
-    }
-
-
-def _loom_json(done: PlanResult, index: int) -> dict[str, Json]:
-    factory, carpets = done.inputs.factory, done.plan.on_loom(index)
-    loom = factory.looms[index]
-    busy = sum(
-        loom.dressing_time(same=carpet.same) + factory.jobs[carpet.job].weaving[index] + loom.doffing
-        for carpet in carpets
-    )
-    open_time = loom.weaving.work(done.plan.end) - loom.weaving.work(loom.available)
-    return {
-        "name": loom.name,
-        "carpets": len(carpets),
-        "busy": minute * busy,
-        "utilisation": busy / open_time if open_time > 0 else 0.0,
-        "end": _iso(done, carpets[-1].end) if carpets else None,
-    }
-
-
-def _rescue_json(done: PlanResult, rescue: Rescue) -> dict[str, Json]:
-    return {
-        "measure": rescue.kind,
-        "loom": done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else None,
-        "time": minute * HOUR * rescue.hours or None,
-        "text": rescue_text(done, rescue),
-        "cost": rescue.plan.cost / MONEY,
-    }
-
-
-def purchase_json(done: PlanResult, one: Purchase) -> JsonObject:
-    """A yarn to buy: masses [kg], price, when it is needed, and when to order it."""
-    factory = done.inputs.factory
-    yarn = factory.yarns[one.yarn]
-    begin = done.inputs.orders_file.start
-    needed = max(done.inputs.time(one.by), begin)
-    lead = next((stock.lead for stock in done.inputs.looms_file.yarns if stock.name == yarn.name), 0.0)
-    order = max(done.inputs.time(one.by - round(lead / minute)), begin)
-    rate = _rate(done, yarn.name)
-    return {
-        "name": yarn.name,
-        "needed": g * one.needed,
-        "stock": g * yarn.stock,
-        "to_buy": g * one.grams,
-        "price": None if rate is None else rate * g * one.grams,
-        "needed_by": needed.isoformat(timespec="minutes"),
-        "order_by": order.isoformat(timespec="minutes"),
-    }
-
-
-def _rate(done: PlanResult, name: str) -> float | None:
-    """Price of a yarn per kilogram: of the stock, else of the first bill that has one in the plan's currency."""
-    for stock in done.inputs.looms_file.yarns:
-        if stock.name == name and stock.price is not None:
-            return stock.price
-    for order in done.inputs.orders:
-        for need in order.bill.needs if order.bill.currency == done.inputs.orders_file.currency else ():
-            if need.bought == name and need.price is not None and need.to_buy > 0:
-                return need.price / need.to_buy
-    return None
-
-
-def _yarn_price(done: PlanResult) -> float | None:
-    prices: Sequence[float | None] = [purchase_json(done, purchase)["price"] for purchase in done.purchases]
-    known = [price for price in prices if price is not None]
-    return sum(known) if len(known) == len(prices) else None
-
-
-def plan_json(done: PlanResult, files: Sequence[str] = ()) -> JsonObject:
-    """The JSON of the job."""
-    parameters = {
-        "orders": str(done.inputs.orders_file.path),
-        "looms": str(done.inputs.looms_file.path),
-        "start": done.inputs.orders_file.start.isoformat(timespec="minutes"),
-        "time_limit": done.time_limit,
-    }
-    results = plan_results(done)
-    return job_json("plan", parameters, results, checks=done.checks, warnings=list(done.warnings), files=list(files))

@@ -1,13 +1,23 @@
 """The files of a plan: page, picture, plan.csv, purchase.csv, plan.json."""
 
+from datetime import timedelta
 from pathlib import Path
 
 from ilmek.factory.calendar import DAY
 from ilmek.io.csv_cells import csv_rows
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs
-from ilmek.jobs.plan import PlanResult, plan_json, plan_results
-from ilmek.jobs.plan_tables import day_text, loom_table, measure_table, order_table, yarn_table
+from ilmek.jobs.plan import PlanResult
+from ilmek.jobs.plan_results import plan_json, plan_results
+from ilmek.jobs.plan_tables import (
+    begun_table,
+    day_text,
+    loom_table,
+    measure_table,
+    moved_table,
+    order_table,
+    yarn_table,
+)
 from ilmek.viz.page_parts import Fact, FileNote
 from ilmek.viz.plan_page import PlanPage, plan_page, plan_svg
 from ilmek.viz.plan_picture import PlanBar, PlanChart, PlanLane
@@ -43,12 +53,23 @@ def write_plan(done: PlanResult, folder: Path, outputs: Outputs) -> list[str]:
 def plan_chart(done: PlanResult) -> PlanChart | None:
     """The picture of a plan; None without carpets. Each order has a colour."""
     plan, factory, inputs = done.plan, done.inputs.factory, done.inputs
-    if not plan.carpets:
+    if not plan.carpets and not inputs.begun:
         return None
     origin = inputs.origin
+    start = (inputs.orders_file.start - origin) // timedelta(minutes=1)
     lanes = []
     for index, loom in enumerate(factory.looms):
-        bars = tuple(
+        on_loom = (
+            PlanBar(
+                inputs.orders[carpet.order].entry.name,
+                carpet.order,
+                (start, start, carpet.woven, carpet.end),
+                (inputs.orders[carpet.order].entry.due - origin) // timedelta(minutes=1),
+            )
+            for carpet in inputs.begun
+            if carpet.loom == index
+        )
+        planned = (
             PlanBar(
                 inputs.orders[factory.jobs[carpet.job].order].entry.name,
                 factory.jobs[carpet.job].order,
@@ -57,12 +78,11 @@ def plan_chart(done: PlanResult) -> PlanChart | None:
             )
             for carpet in plan.on_loom(index)
         )
-        lanes.append(PlanLane(loom.name, loom.weaving.windows, bars))
-    begin = min(carpet.start for carpet in plan.carpets)
-    dues = [factory.jobs[carpet.job].due for carpet in plan.carpets]
-    length = plan.end - begin
+        lanes.append(PlanLane(loom.name, loom.weaving.windows, (*on_loom, *planned)))
+    bars = [bar for lane in lanes for bar in lane.bars]
+    begin, last = min(bar.phases[0] for bar in bars), max(bar.phases[-1] for bar in bars)
     # A due date far behind the last carpet would make the bars short.
-    end = max(plan.end, *(due for due in dues if due <= plan.end + length // 4), begin + 1)
+    end = max(last, *(bar.due for bar in bars if bar.due <= last + (last - begin) // 4), begin + 1)
     return PlanChart("Plan of the factory", origin, begin // DAY * DAY, -(-(end + 1) // DAY) * DAY, tuple(lanes))
 
 
@@ -82,7 +102,14 @@ def _page(done: PlanResult, chart: PlanChart | None, notes: tuple[FileNote, ...]
         ),
         Fact("End", day_text(done.inputs.time(done.plan.end).isoformat()) if done.plan.carpets else "–"),
     )
-    tables = (order_table(found), measure_table(found), loom_table(found), yarn_table(found))
+    tables = (
+        begun_table(found),
+        order_table(found),
+        moved_table(found),
+        measure_table(found),
+        loom_table(found),
+        yarn_table(found),
+    )
     files = done.inputs.orders_file.path.name, done.inputs.looms_file.path.name
     return PlanPage(
         f"{files[0]} on {files[1]}, from {day_text(done.inputs.orders_file.start.isoformat())}",

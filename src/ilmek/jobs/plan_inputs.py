@@ -1,75 +1,20 @@
-"""From the files of a factory to its model: looms that are ready, charts of the orders, who can weave what."""
+"""From the files of a factory to its model: carpets to weave, yarn in stock, looms and what is on them."""
 
 import math
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
-from pathlib import Path
-from typing import TypeAlias
 
-import numpy as np
-
-from ilmek.carpet.bill import YarnBill, yarn_bill
-from ilmek.carpet.chart import Chart
-from ilmek.carpet.colourways import Colourway, recoloured
-from ilmek.carpet.creel import names_to_buy
-from ilmek.carpet.recipe.edits import located
-from ilmek.carpet.statistics import chart_statistics
-from ilmek.carpet.usual_pile import with_counts
-from ilmek.errors import IlmekError, ParameterError
-from ilmek.factory.calendar import Calendar, Shift, calendar
+from ilmek.errors import ParameterError
+from ilmek.factory.calendar import Calendar, Shift, calendar, without
 from ilmek.factory.model import HOUR, MONEY, CarpetJob, Factory, Loom, StoredYarn
-from ilmek.io.looms_file import FactoryLooms, LoomEntry, WeaversLoom
-from ilmek.io.orders_file import FactoryOrder, FactoryOrders
-from ilmek.io.programme_file import ProgrammeFile, open_programme
-from ilmek.jobs.chart import ChartResult, make_charted
-from ilmek.jobs.existing_loom import ExistingLoom, read_existing_loom
-from ilmek.jobs.loom import LoomOrder, make_loomed
-from ilmek.jobs.loom_setup import loom_digest
-from ilmek.jobs.order import read_order
-from ilmek.jobs.weave import overlay_checks
-from ilmek.jobs.wishes import Wishes
-from ilmek.loom.operations import LoomSetup
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
-from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.making import MakingStep, finishing_steps
+from ilmek.io.looms_file import FactoryLooms, LoomEntry
+from ilmek.io.orders_file import FactoryOrders
+from ilmek.jobs.plan_begun import BegunCarpet, begun_carpet, require_counts
+from ilmek.jobs.plan_fits import PlannedOrder, planned_orders, ready_looms
 from ilmek.progress import SILENT, Progress
-from ilmek.records import JsonObject, record
-from ilmek.report import Check, at_most, must
+from ilmek.records import record
 from ilmek.units import g, hour, minute
-
-
-@record
-class LoomFit:
-    """Whether a loom weaves a carpet: its weaving time without stops [s], None where it does not; checks that fail.
-
-    finishing  the steps of making after it, at the rates of the loom      energy  of its weaving [J]
-    """
-
-    time: float | None
-    failed: tuple[Check, ...] = ()
-    finishing: tuple[MakingStep, ...] = ()
-    energy: float = 0.0
-
-
-@record
-class PlannedOrder:
-    """An order of the file with its bill, its setup, and its fit to each loom.
-
-    charted  its chart; None where it is a programme
-    """
-
-    entry: FactoryOrder
-    bill: YarnBill
-    setup: tuple[object, ...]
-    fits: tuple[LoomFit, ...]
-    charted: ChartResult | None = None
-
-    @property
-    def possible(self) -> bool:
-        """Whether a loom weaves it."""
-        return any(fit.time is not None for fit in self.fits)
 
 
 @record
@@ -78,6 +23,7 @@ class FactoryInputs:
 
     orders   all orders; `jobs`: the indices of the jobs of each order, none for an order that no loom weaves
     origin   the midnight from which minutes count
+    begun    the carpets that are on looms when the plan begins; they are no jobs
     """
 
     orders_file: FactoryOrders
@@ -86,6 +32,7 @@ class FactoryInputs:
     jobs: tuple[tuple[int, ...], ...]
     factory: Factory
     origin: datetime
+    begun: tuple[BegunCarpet, ...] = ()
 
     def time(self, minutes: int) -> datetime:
         """The instant of a minute of the plan."""
@@ -97,22 +44,35 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
     if orders.currency != looms.currency:
         given = f"{orders.path} is in {orders.currency}, {looms.path} in {looms.currency}"
         raise ParameterError(given, allowed="one currency", do="set currency in both files")
-    ready = _ready_looms(looms, progress.part(0.0, 0.4, "looms"))
-    planned = _planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
+    ready = ready_looms(looms, progress.part(0.0, 0.4, "looms"))
+    planned = planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
     origin = orders.start.replace(hour=0, minute=0)
-    names = _yarn_names(planned)
+    setups: dict[tuple[object, ...], int] = {}
+    own = [setups.setdefault(order.setup, len(setups)) for order in planned]
+    empty = _looms(looms, orders.start, origin)
+    begun = _begun(looms, empty, planned, orders.start, origin)
     jobs: list[CarpetJob] = []
     indices: list[tuple[int, ...]] = []
-    setups: dict[tuple[object, ...], int] = {}
+    names = _yarn_names(planned)
     for number, order in enumerate(planned):
-        setup = setups.setdefault(order.setup, len(setups))
-        job = replace(_job(order, looms, origin, names), order=number, setup=setup)
-        count = order.entry.quantity if order.possible else 0
+        job = replace(_job(order, looms, origin, names), order=number, setup=own[number])
+        woven = sum(carpet is not None and carpet.order == number for carpet in begun)
+        count = order.entry.quantity - woven if order.possible else 0
         indices.append(tuple(range(len(jobs), len(jobs) + count)))
         jobs += [job] * count
-    begin = _minutes(orders.start, origin)
+    free = tuple(
+        loom if carpet is None else replace(loom, available=carpet.end, setup=own[carpet.order])
+        for loom, carpet in zip(empty, begun, strict=True)
+    )
+    factory = Factory(free, tuple(jobs), _stock(looms, names, _minutes(orders.start, origin)))
+    on_looms = tuple(carpet for carpet in begun if carpet is not None)
+    return FactoryInputs(orders, looms, planned, tuple(indices), factory, origin, on_looms)
+
+
+def _stock(looms: FactoryLooms, names: Sequence[str], begin: int) -> tuple[StoredYarn, ...]:
+    """The yarns by name, as they are in stock at the begin of the plan [min]."""
     stock = {yarn.name: yarn for yarn in looms.yarns}
-    yarns = tuple(
+    return tuple(
         StoredYarn(
             name,
             math.floor(stock[name].stock / g + 1e-6) if name in stock else 0,
@@ -120,142 +80,28 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
         )
         for name in names
     )
-    factory = Factory(_looms(looms, orders.start, origin), tuple(jobs), yarns)
-    return FactoryInputs(orders, looms, planned, tuple(indices), factory, origin)
+
+
+def _begun(
+    looms: FactoryLooms, empty: Sequence[Loom], orders: Sequence[PlannedOrder], start: datetime, origin: datetime
+) -> tuple[BegunCarpet | None, ...]:
+    """What is on each loom at the begin of the plan."""
+    due = [_minutes(order.entry.due, origin) for order in orders]
+    begun = []
+    for index, (entry, loom) in enumerate(zip(looms.looms, empty, strict=True)):
+
+        def worked(since: datetime, entry: LoomEntry = entry) -> float:
+            midnight = since.replace(hour=0, minute=0)
+            weaving, _ = _calendars(looms, entry, midnight)
+            return minute * (weaving.work(_minutes(start, midnight)) - weaving.work(_minutes(since, midnight)))
+
+        begun.append(begun_carpet(index, entry, loom, orders, worked=worked, due=due))
+    require_counts([carpet for carpet in begun if carpet is not None], orders, looms.looms)
+    return tuple(begun)
 
 
 def _minutes(time: datetime, origin: datetime) -> int:
     return (time - origin) // timedelta(minutes=1)
-
-
-ReadyLoom: TypeAlias = ExistingLoom | WeaversLoom
-
-
-def _ready_looms(looms: FactoryLooms, progress: Progress) -> list[ReadyLoom]:
-    """The looms of the file; equal ones are designed once."""
-    made: dict[tuple[object, ...], ReadyLoom] = {}
-    ready_looms = []
-    for index, entry in enumerate(looms.looms):
-        key = entry.file, entry.hand, tuple(sorted(entry.design.items()))
-        if key not in made:
-            with located(entry.where):
-                made[key] = _existing(entry)
-        ready_looms.append(made[key])
-        progress((index + 1) / len(looms.looms))
-    return ready_looms
-
-
-def _existing(entry: LoomEntry) -> ReadyLoom:
-    if entry.hand is not None:
-        return entry.hand
-    if entry.file is not None:
-        return read_existing_loom(entry.file)
-    made = design(AutomatedLoomParams.read(dict(entry.design)))
-    return ExistingLoom(Path(entry.name), made, MACHINE.report(made, illustrated=False))
-
-
-def _planned_orders(orders: FactoryOrders, looms: Sequence[ReadyLoom], progress: Progress) -> tuple[PlannedOrder, ...]:
-    """The orders; carpets of the same file and settings are charted once."""
-    charts: dict[tuple[object, ...], ChartResult] = {}
-    made: dict[tuple[object, ...], PlannedOrder] = {}
-    planned_orders = []
-    for index, entry in enumerate(orders.orders):
-        design = entry.picture, entry.programme, entry.yarns, tuple(sorted(entry.carpet.items()))
-        key = (*design, entry.colourway)
-        with located(entry.where):
-            if entry.picture is not None and design not in charts:
-                charts[design] = _charted(entry.picture, entry)
-            if key not in made:
-                made[key] = _of_chart(entry, charts[design], looms) if design in charts else _of_programme(entry, looms)
-        planned_orders.append(replace(made[key], entry=entry))
-        progress((index + 1) / len(orders.orders))
-    return tuple(planned_orders)
-
-
-def _charted(picture: Path, entry: FactoryOrder) -> ChartResult:
-    """The chart of an order's design."""
-    settings: JsonObject = dict(entry.carpet)
-    return make_charted(read_order(picture, yarn_file=entry.yarns, **settings))
-
-
-def _of_chart(entry: FactoryOrder, design: ChartResult, looms: Sequence[ReadyLoom]) -> PlannedOrder:
-    """A carpet of a design, in its colourway."""
-    charted = design if entry.colourway is None else in_colourway(design, entry.colourway)
-    fits: dict[int, LoomFit] = {}
-    for loom in looms:
-        if id(loom) not in fits:
-            fits[id(loom)] = _by_hand(charted, loom) if isinstance(loom, WeaversLoom) else _fit(charted, loom)
-    chosen = tuple(fits[id(loom)] for loom in looms)
-    return PlannedOrder(entry, charted.bill, setup_of(charted.chart), chosen, charted)
-
-
-def in_colourway(charted: ChartResult, colourway: Colourway) -> ChartResult:
-    """The chart of a design in a colourway, with its own bill. Raises CarpetError as `recoloured`."""
-    chart = recoloured(charted.chart, colourway, charted.order.yarns)
-    bill = yarn_bill(chart, charted.order.order.plan)
-    order = charted.order.with_dyed(chart.yarns)
-    return replace(charted, order=order, chart=chart, bill=bill, statistics=chart_statistics(chart))
-
-
-def _by_hand(charted: ChartResult, loom: WeaversLoom) -> LoomFit:
-    """The weaving time at a frame that is wide enough: all its weavers tie at once."""
-    chart = charted.chart
-    checks = (*charted.checks, at_most("width", chart.size.width, loom.width, "m", "the loom's frame"))
-    failed = tuple(check for check in checks if not check.ok)
-    time = charted.bill.knots / (loom.weavers * loom.knots)
-    return LoomFit(None if failed else time, failed, finishing_steps(CostRates(), chart.size.area))
-
-
-def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
-    """Whether a loom weaves a chart, as `ilmek weave --loom FILE` judges it."""
-    try:
-        loomed = make_loomed(LoomOrder(loom.design.params, Wishes(), existing=loom), charted)
-    except IlmekError as error:
-        return LoomFit(None, (must("carpet: programme", False, error.given).with_cure(error.do or error.allowed),))
-    checks = (*charted.checks, *overlay_checks(charted.chart), *loomed.checks, *loom.report.all_checks)
-    failed = tuple(check for check in checks if not check.ok)
-    if failed or loomed.programme is None:
-        return LoomFit(None, failed)
-    finishing = finishing_steps(loom.design.params.cost, charted.chart.size.area)
-    time, cost = loomed.programme.duration, loomed.cost
-    return LoomFit(time, finishing=finishing, energy=0.0 if cost is None else cost.energy * time / cost.time)
-
-
-def _of_programme(entry: FactoryOrder, looms: Sequence[ReadyLoom]) -> PlannedOrder:
-    """A carpet whose programme is compiled: only the loom that it was compiled for weaves it."""
-    assert entry.programme is not None
-    with open_programme(entry.programme) as programme:
-        chart, setup, time = _chart_of(programme), programme.setup, programme.totals.duration
-    fits = tuple(_programme_fit(setup, time, loom) for loom in looms)
-    return PlannedOrder(entry, yarn_bill(chart), setup_of(chart), fits)
-
-
-def _chart_of(programme: ProgrammeFile) -> Chart:
-    setup = programme.setup
-    rows = [programme.chart_row(number) for number in range(setup.rows)]
-    yarns = with_counts(setup.yarns, setup.quality, setup.knot)
-    return Chart(np.array(rows[::-1], np.uint8), yarns, setup.size, setup.quality, setup.knot)
-
-
-def _programme_fit(setup: LoomSetup, time: float, loom: ReadyLoom) -> LoomFit:
-    if isinstance(loom, WeaversLoom):
-        cure = "order its picture: weavers tie by a chart"
-        return LoomFit(None, (must("programme: the loom has a control", False, "a frame for weavers").with_cure(cure),))
-    compiled = must(
-        "programme: compiled for this loom",
-        loom_digest(loom.design.params) == setup.loom,
-        "digest of the loom's parameters",
-    ).with_cure("weave the picture on this loom: ilmek weave PICTURE --loom FILE")
-    failed = tuple(check for check in (compiled, *loom.report.all_checks) if not check.ok)
-    return LoomFit(None if failed else time, failed, finishing_steps(loom.design.params.cost, setup.size.area))
-
-
-def setup_of(chart: Chart) -> tuple[object, ...]:
-    """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, tubes."""
-    # Two carpets may each have a yarn dyed for them of one name and two shades.
-    names = names_to_buy(chart)
-    tubes = Counter((names[index], chart.yarns[index].srgb) for index in chart.used)
-    return chart.columns, chart.quality, chart.knot, frozenset(tubes.items())
 
 
 def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:
@@ -280,23 +126,31 @@ def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequ
 
 
 def _looms(looms: FactoryLooms, start: datetime, origin: datetime) -> tuple[Loom, ...]:
-    """The looms with their calendars; equal calendars are made once."""
-    shifts = {
-        shift.name: Shift(shift.name, shift.days, shift.start, shift.end, shift.breaks, shift.attended)
-        for shift in looms.shifts
-    }
-    holidays = frozenset((day - origin.date()).days for day in looms.holidays)
-    made: dict[tuple[str, ...], tuple[Calendar, Calendar]] = {}
+    """The looms with their calendars, empty; equal calendars are made once."""
+    made: dict[object, tuple[Calendar, Calendar]] = {}
     found = []
     for entry in looms.looms:
-        if entry.shifts not in made:
-            own = [shifts[name] for name in entry.shifts]
-            calendars = (calendar(own, origin.weekday(), holidays, attended=only) for only in (False, True))
-            weaving, attended = calendars
-            made[entry.shifts] = weaving, attended
+        key = entry.shifts, entry.downtime
+        if key not in made:
+            made[key] = _calendars(looms, entry, origin)
         available = max(_minutes(entry.available, origin) if entry.available else 0, _minutes(start, origin))
         minutes = (round(time / minute) for time in (entry.dressing, entry.dressing_same, entry.doffing))
         dressing, same, doffing = minutes
         cost = round(MONEY * entry.cost * 60 * HOUR)
-        found.append(Loom(entry.name, *made[entry.shifts], cost, dressing, same, doffing, available))
+        found.append(Loom(entry.name, *made[key], cost, dressing, same, doffing, available))
     return tuple(found)
+
+
+def _calendars(looms: FactoryLooms, entry: LoomEntry, origin: datetime) -> tuple[Calendar, Calendar]:
+    """When a loom weaves and when it is attended, from a midnight on: its shifts less holidays and downtime."""
+    shifts = [
+        Shift(shift.name, shift.days, shift.start, shift.end, shift.breaks, shift.attended)
+        for name in entry.shifts
+        for shift in looms.shifts
+        if shift.name == name
+    ]
+    holidays = frozenset((day - origin.date()).days for day in looms.holidays)
+    down = [(_minutes(begin, origin), _minutes(end, origin)) for begin, end in entry.downtime]
+    plain = (calendar(shifts, origin.weekday(), holidays, attended=only) for only in (False, True))
+    weaving, attended = (Calendar(without(one.windows, down)) for one in plain)
+    return weaving, attended

@@ -2,7 +2,8 @@
 
 from datetime import datetime
 
-from ilmek.jobs.plan import PlanResult, plan_results
+from ilmek.jobs.plan import PlanResult
+from ilmek.jobs.plan_results import plan_results
 from ilmek.records import JsonObject
 from ilmek.units import hour
 from ilmek.viz.plan_page import PlanTable
@@ -20,6 +21,34 @@ def order_table(found: JsonObject) -> PlanTable:
             rows.append((order["name"], "none", "", "", due, "", "not woven"))
     headings = ("order", "loom", "start", "end", "due", f"cost [{found['currency']}]", "late")
     return PlanTable("Orders", headings, tuple(rows), (5, 6))
+
+
+def begun_table(found: JsonObject) -> PlanTable:
+    """What is on the looms when the plan begins: pace 1.10 is 10 % slower than planned."""
+    rows = tuple(
+        (
+            one["loom"],
+            one["order"],
+            f"{one['rows']} of {one['of']}",
+            f"{one['pace']:.2f}",
+            day_text(one["woven"]),
+            day_text(one["end"]),
+            _late(one["late"]),
+        )
+        for one in found["begun"]
+    )
+    headings = ("loom", "order", "rows", "pace", "woven", "off the loom", "late")
+    return PlanTable("On the looms", headings, rows, (2, 3, 6))
+
+
+def moved_table(found: JsonObject) -> PlanTable:
+    """The orders that end at another time than in the earlier plan."""
+    rows = tuple(
+        (order["name"], day_text(order["end"]), f"{order['moved'] / hour:+.1f} h")
+        for order in found["orders"]
+        if order["moved"]
+    )
+    return PlanTable("Against the earlier plan", ("order", "end", "moved"), rows, (2,))
 
 
 def measure_table(found: JsonObject) -> PlanTable:

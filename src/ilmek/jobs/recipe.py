@@ -56,6 +56,7 @@ def chart_of_recipe(
     yarns = _counted(done.order)
     chart = finish(done.chart, recipe, yarns, made, progress.part(0.85, 1.0, "edits"), origins=origins)
     chart = used_first(chart) if recipe.edits or made is not None else chart
+    chart = chart if made is None else made.piled(chart)
     notes = (*done.notes, *carrying, *outcome_notes(chart.reading.edits))
     return replace(done, order=replace(done.order, order=given), chart=chart, notes=notes)
 

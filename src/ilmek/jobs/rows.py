@@ -93,7 +93,7 @@ def write_rows(
         if name == "wall.pdf":
             return lambda: write_wall_pdf(path, chart, part, printing=printing)
         if name == "rows.txt":
-            return lambda: write_rows_text(path, chart, plan.split, direction, part, language=printing.language)
+            return lambda: write_rows_text(path, chart, plan.split, direction, part, printing=printing)
         if plan.split == "colours":
             return lambda: write_colours_pdf(path, chart, direction, plan.pages, part, printing=printing)
         return lambda: write_rows_pdf(path, chart, direction, part, printing=printing)

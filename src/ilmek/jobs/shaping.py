@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 from scipy import ndimage
 
-from ilmek.arrays import Rgb, UInt8
+from ilmek.arrays import Indices, Rgb, UInt8
+from ilmek.carpet.carving import require_carved
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import encoded, resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.shape import PICTURE, shaped
@@ -21,6 +23,9 @@ _HALF = int(encoded(0.5))
 """Least code of a cell that is inside: half of its light, as areas are averaged."""
 
 
+_WHITE, _SEEN = 255, 128
+"""Code of white; difference on white and on black from which a pixel of a map of the pile is transparent."""
+
 _BLUR = 3
 """Cells inside of an outline that a picture may mix with its ground."""
 
@@ -30,6 +35,7 @@ Codes = UInt8[np.ndarray, "rows columns"]
 def with_shape(made: OrderedChart, order: CarpetOrder) -> OrderedChart:
     """The chart of an order with its shape. Raises CarpetError, and PictureError for a file that is no outline."""
     shape, chart = order.shape, made.chart
+    base = order.picture.parent if order.recipe is not None else Path()
     covered = None
     if shape.shape == PICTURE:
         path = order.picture if order.recipe is None else order.recipe.picture
@@ -37,11 +43,24 @@ def with_shape(made: OrderedChart, order: CarpetOrder) -> OrderedChart:
             raise CarpetError("--shape picture: the recipe has several pictures", do="give the outline as a file")
         covered = _of_picture(path, made, order)
     elif shape.file is not None:
-        base = order.picture.parent if order.recipe is not None else Path()
         covered = _on_grid(_covered(base / shape.file, Rendering(1, (chart.rows, chart.columns))), made)
     if covered is not None:
         chart = _inner_yarns(chart, covered)
-    return replace(made, chart=shaped(chart, shape, None if covered is None else covered >= _HALF))
+    levels = None if shape.pile_map is None else _levels(base / shape.pile_map, len(shape.levels), made)
+    chart = shaped(chart, shape, None if covered is None else covered >= _HALF, levels)
+    require_carved(chart, order.plan.pile(chart.quality))
+    return replace(made, chart=chart)
+
+
+def _levels(path: Path, number: int, made: OrderedChart) -> Indices:
+    """The level of each cell in a picture of greys at equal steps: that of most of the cell; NO_KNOT: transparent."""
+    rows, columns = made.chart.rows, made.chart.columns
+    black, white = _on_black_and_white(path, Rendering(1, (rows, columns)))
+    seen = (white.astype(np.int16) - black).max(axis=2) < _SEEN
+    level = np.where(seen, np.rint(black.mean(axis=2) / _WHITE * (number - 1)), number).astype(np.uint8)
+    shares = [_on_grid(_grey((level == one) * np.uint8(_WHITE)), made) for one in range(number + 1)]
+    most = np.argmax(shares, axis=0).astype(np.uint8)
+    return np.where(most == number, np.uint8(NO_KNOT), most)
 
 
 def _inner_yarns(chart: Chart, covered: Codes) -> Chart:
@@ -84,13 +103,24 @@ def _covered(path: Path, rendering: Rendering, *, needed: bool = False) -> Rgb:
 
     On white and on black it differs by what is seen of the ground.
     """
-    black, white = (read_picture(path, ground=code, rendering=rendering).rgb for code in ("#000000", "#ffffff"))
+    black, white = _on_black_and_white(path, rendering)
     seen = np.abs(white.astype(np.int16) - black).max(axis=2)
     if seen.any():
-        cover = (255 - seen).astype(np.uint8)
+        cover = (_WHITE - seen).astype(np.uint8)
     elif needed:
         given = f"--shape picture: {path.name} has no transparent part"
         raise CarpetError(given, do="give a shape like round, or an outline as a file")
     else:
         cover = black.max(axis=2)
-    return np.ascontiguousarray(np.repeat(cover[..., np.newaxis], 3, axis=2))
+    return _grey(cover)
+
+
+def _on_black_and_white(path: Path, rendering: Rendering) -> tuple[Rgb, Rgb]:
+    """A picture on a black and on a white ground, which differ where it is transparent."""
+    black, white = (read_picture(path, ground=code, rendering=rendering).rgb for code in ("#000000", "#ffffff"))
+    return black, white
+
+
+def _grey(codes: Codes) -> Rgb:
+    """Codes of grey as a picture."""
+    return np.ascontiguousarray(np.repeat(codes[..., np.newaxis], 3, axis=2))

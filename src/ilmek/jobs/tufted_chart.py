@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from ilmek.carpet.cells import PLAIN
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.yarn_plan import parse_count
@@ -22,16 +23,25 @@ def yarn_setting(order: CarpetOrder) -> dict[str, Setting]:
     return {"yarn_density": f"{ply / count} g/m"}
 
 
-def charted_for_tufts(order: CarpetOrder, quality: Quality, progress: Progress = SILENT) -> ChartResult:
-    """The chart of an order at the resolution of a machine; a picture that is a chart keeps its size."""
+def charted_for(
+    order: CarpetOrder, quality: Quality, progress: Progress = SILENT, *, noun: str, piles: bool = False
+) -> ChartResult:
+    """The chart of an order at the resolution of a machine or a cloth; a picture that is a chart keeps its size.
+
+    piles  whether a shape that is cut afterwards, and piles of several heights, can be made
+    Raises CarpetError for cells and carved lines that cannot.
+    """
     if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
         order = replace(order, size=make_charted(order, progress.part(0.0, 0.3)).chart.size)
     order = replace(order, quality=quality, pdf=False, files=replace(order.files, rows="none"))
     charted = make_charted(order, progress.part(0.3, 1.0))
-    if charted.chart.cells is not None:
-        given = f"tufting of a carpet with {' and '.join(str(kind) for kind in charted.chart.cells.kinds)}"
-        do = "leave --shape, --flat-weave and --pile out and cut the carpet afterwards, or knot it"
-        raise CarpetError(given, allowed="a rectangle of one pile", do=do)
+    cells = charted.chart.cells
+    if cells is not None and not (piles and not cells.number(PLAIN) and cells.carving is None):
+        with_lines = () if cells.carving is None else ("carved lines",)
+        given = f"{noun} of a carpet with {' and '.join((*map(str, cells.kinds), *with_lines))}"
+        allowed = "an outline that is cut, and heights of pile" if piles else "a rectangle of one pile"
+        do = "leave the options of its shape and pile out, and cut the carpet afterwards, or knot it"
+        raise CarpetError(given, allowed=allowed, do=do)
     return charted
 
 

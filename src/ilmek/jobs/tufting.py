@@ -5,8 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.carpet.bill import yarn_bill
-from ilmek.carpet.chart import used_first
+from ilmek.carpet.chart import Chart, used_first
 from ilmek.carpet.quality import Quality
 from ilmek.errors import ParameterError
 from ilmek.io.json_file import write_json
@@ -17,7 +20,7 @@ from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.loom import make_loomed, params_for, read_loom_order
 from ilmek.jobs.making import Making
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for_tufts, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.tufting_machine import MACHINE, TuftingMachine, TuftingMachineParams
 from ilmek.machines.tufting_machine.params import BY_NEEDLE, SCROLLS
@@ -29,8 +32,8 @@ from ilmek.report import Check, Json, Report, Result, results_of
 from ilmek.units import counted
 from ilmek.viz.carpet_picture import draw_carpet
 from ilmek.viz.tufted_page import tufting_page
-from ilmek.weaving.tufting.programme import tuft_programme
-from ilmek.weaving.tufting.twin import BARE, tufted_face
+from ilmek.weaving.tufting.programme import BARE, tuft_programme
+from ilmek.weaving.tufting.twin import tufted_face
 
 PROGRAMME, PAGE, REPORT, PICTURE = "tufting.txt", "report.html", "report.json", "carpet.png"
 
@@ -49,13 +52,15 @@ class TuftingOrder:
     params: TuftingMachineParams
     deadline: float | None = None
 
-    def params_for(self, needles: int, colours: int) -> TuftingMachineParams:
-        """The parameters for a number of needles and of colours."""
+    def params_for(self, needles: int, colours: int, piles: Mapping[str, Setting]) -> TuftingMachineParams:
+        """The parameters for a number of needles and of colours; piles: the heights and the share of the low loops."""
         width = needles * self.params.gauge
         left_open: dict[str, Setting] = {"drives": max(2, math.ceil(width / DRIVE_PITCH))}
-        if colours > 1:
+        if colours > 1 or piles:
             left_open["pattern.attachment"] = SCROLLS
-        return TuftingMachineParams.read({**left_open, **self.settings, "width": width, "pattern.colours": colours})
+        return TuftingMachineParams.read(
+            {**left_open, **self.settings, **piles, "width": width, "pattern.colours": colours}
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,17 +148,18 @@ def weave_by_tufting(
         params = machine.params
         with made.folder(folder) as work:
             by_needle = params.pattern.selection == BY_NEEDLE
+            planning, heights = progress.part(0.6, 0.75, "programme"), loop_heights(charted.chart, params)
             programme = tuft_programme(
-                labels, len(cones), params.grid, by_needle=by_needle, progress=progress.part(0.6, 0.75, "programme")
+                labels, len(cones), params.grid, heights=heights, by_needle=by_needle, progress=planning
             )
             write_tufting(work / PROGRAMME, programme, [(cone.name, cone.colour) for cone in cones])
             programme = read_tufting(work / PROGRAMME)
             face = tufted_face(programme, progress.part(0.75, 0.9, "twin"))
-            tufted = TuftedPicture(machine, programme, face, labels, cones, knotted, tufting.deadline)
+            tufted = TuftedPicture(machine, programme, face, labels, heights, cones, knotted, tufting.deadline)
             result = TuftingResult(charted, tufting, report, tufted, notes, folder)
             if not result.tufts:
                 (work / PROGRAMME).unlink()
-            bare = bool((face.colours == BARE).any())
+            bare = bool(((face.colours == BARE) & (labels != BARE)).any())
             drawn = None if bare else draw_carpet(replace(charted.chart, knots=face.colours)).of_pile
             files = {PAGE: True, PICTURE: drawn is not None, PROGRAMME: result.tufts, REPORT: True}
             result = replace(result, written=tuple(name for name, there in files.items() if there))
@@ -176,7 +182,7 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
     """The chart with the yarns that it uses first, and notes; colours left open are at most those of the creel."""
     params, creel = tufting.params, tufting.params.pattern.creel
     quality = Quality(1 / params.gauge, params.stitch_rate)
-    charted = charted_for_tufts(order, quality, progress.part(0.0, 0.5))
+    charted = charted_for(order, quality, progress.part(0.0, 0.5), noun="tufting", piles=True)
     notes: tuple[str, ...] = ()
     if charted.chart.colours > creel > 1 and order.palette.colours is None and order.yarns is None:
         taken = counted(charted.chart.colours, "colour")
@@ -184,14 +190,41 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
             f"the picture has {taken}, the creel {creel}: drawn with these; set --colours or --tufting pattern.creel",
         )
         order = replace(order, palette=replace(order.palette, colours=creel))
-        charted = charted_for_tufts(order, quality, progress.part(0.5, 1.0))
+        charted = charted_for(order, quality, progress.part(0.5, 1.0), noun="tufting", piles=True)
     return replace(charted, chart=used_first(charted.chart)), notes
 
 
 def _machine(charted: ChartResult, tufting: TuftingOrder) -> TuftingMachine:
     """The machine for a chart. Raises ParameterError for more colours than any creel has."""
     chart = charted.chart
-    return MACHINE.design(tufting.params_for(chart.columns + chart.colours - 1, chart.colours))
+    needles, piles = chart.columns + chart.colours - 1, _piles(chart, tufting.params)
+    return MACHINE.design(tufting.params_for(needles, chart.colours, piles))
+
+
+def loop_heights(chart: Chart, params: TuftingMachineParams) -> FloatArray:
+    """The height of the pile of each cell [m]; that of the machine where a cell has none of its own."""
+    cells = chart.cells
+    if cells is None:
+        return np.full(chart.knots.shape, params.pile_height)
+    of_kinds = np.array([params.pile_height if kind.height is None else kind.height for kind in cells.kinds])
+    return np.asarray(of_kinds[cells.index])
+
+
+def _piles(chart: Chart, params: TuftingMachineParams) -> dict[str, Setting]:
+    """The parameters of the heights of a chart; none where its pile is that of the machine.
+
+    Raises ParameterError for loops in a cut pile, or a cut pile among loops.
+    """
+    tied = [] if chart.cells is None else [kind for kind in chart.cells.kinds if kind.knotted]
+    if any(kind.loop for kind in tied) and not (params.pile == "loop" and all(kind.loop for kind in tied)):
+        do = "give heights alone: --tufting pile=loop or pile=cut is for the whole carpet"
+        raise ParameterError("tufting of cut pile and loops in one carpet", allowed="one of them", do=do)
+    heights = loop_heights(chart, params)[chart.knots != BARE]
+    high, low = float(heights.max()), float(heights.min())
+    if high == low == params.pile_height:
+        return {}
+    share = float(np.mean((high - heights) / (high - low))) if high > low else 0.0
+    return {"pile_height": f"{high} m", **({"low_height": f"{low} m", "low_share": share} if high > low else {})}
 
 
 def knotted_cost(order: CarpetOrder, progress: Progress = SILENT) -> float | None:

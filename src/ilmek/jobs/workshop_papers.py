@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.plc.io_list import HEADER, io_rows
@@ -29,7 +28,7 @@ DRAWING_KINDS = ("drawings", "assembly", "sheet", "translation")
 """Kinds of entries of drawings, in the order of the index."""
 
 
-def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
+def papers_of(machine: AnyComponent, design: object, report: Report) -> Papers:
     """The papers of a design of a machine with its report; none of a machine without parts.
 
     Those of a loom with heads have the list of the inputs and outputs of its control besides.

@@ -4,7 +4,7 @@ import math
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.pile import coarsest_count
+from ilmek.carpet.pile import PileParams, coarsest_count, of_yarn
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.usual_pile import BAND_SOURCE, USUAL_PLY, usual_count
 from ilmek.carpet.yarn import Yarn
@@ -32,7 +32,7 @@ def too_thick(chart: Chart, thickest: Yarn, fill: Check) -> str:
         return ""
     yarn, quality = thickest, chart.quality
     # Rounded up, because a finer count fits.
-    fits = math.ceil(100 * coarsest_count(quality, yarn.ply)) / 100
+    fits = math.ceil(100 * coarsest_count(quality, yarn.ply, of_yarn(PileParams(), yarn))) / 100
     usual = f"{usual_count(quality, chart.knot):g}/{USUAL_PLY}"
     problem = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {quality}"
     takes = f"its pile would take {format_quantity(fill.value, '%', 3)} of the ground"

@@ -159,6 +159,6 @@ def _body_part(body: BodyMotion, which: IntArray) -> BodyMotion:
     return BodyMotion(anchor, body.at, *(_part(getattr(body, one), which) for one in ("direction", "omega", "alpha")))
 
 
-def _part(field: Any, which: IntArray) -> Any:
+def _part(field: object, which: IntArray) -> Any:
     """Samples of a real or complex field; a constant is the same in all."""
     return field[which] if isinstance(field, np.ndarray) and field.ndim else field

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from ilmek.arguments import Arguments
 from ilmek.errors import MechanismError, did_you_mean
@@ -135,7 +135,7 @@ class Mechanism(Shown):
             raise MechanismError(given, allowed=f"it has {', '.join(points) or 'none'}")
         return points[point]
 
-    def vary(self, points: Mapping[str, Any] = MappingProxyType({}), **lengths: Any) -> "Variants":
+    def vary(self, points: Mapping[str, object] = MappingProxyType({}), **lengths: object) -> "Variants":
         """Variants of it: link -> lengths between its two joints [m]; points: "BODY.POINT" -> positions [m], complex.
 
         The arrays broadcast. Raises MechanismError for unknown names and for lengths that are not above 0.

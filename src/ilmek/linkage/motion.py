@@ -60,6 +60,16 @@ class MovedPoint:
         return self.motion.carried(self.body, self.local).acceleration
 
     @property
+    def jerk(self) -> Points:
+        """Jerk [m/s^3], complex."""
+        return self.motion._points(self.motion._jerk(self.body).carry(self.local))
+
+    @property
+    def direction(self) -> Points:
+        """Unit complex e^{i theta} along the x axis of the body's frame."""
+        return self.motion.direction(self.body)
+
+    @property
     def angle(self) -> Reals:
         """Angle of the body [rad], counted through full turns."""
         return self.motion.angle(self.body)
@@ -73,6 +83,11 @@ class MovedPoint:
     def alpha(self) -> Reals:
         """Angular acceleration of the body [rad/s^2]."""
         return self.motion.alpha(self.body)
+
+    @property
+    def beta(self) -> Reals:
+        """Angular jerk of the body [rad/s^3]."""
+        return self.motion._reals(self.motion._jerk(self.body).beta)
 
 
 @record
@@ -146,14 +161,6 @@ class Motion(Framed):
         """World position of the origin of a body's frame [m]."""
         return self._points(self.carried(body, 0j).position)
 
-    def velocity_of_origin(self, body: str) -> Points:
-        """Velocity of the origin of a body's frame [m/s]."""
-        return self._points(self.carried(body, 0j).velocity)
-
-    def acceleration_of_origin(self, body: str) -> Points:
-        """Acceleration of the origin of a body's frame [m/s^2]."""
-        return self._points(self.carried(body, 0j).acceleration)
-
     def pose(self, sample: int = 0) -> dict[str, tuple[complex, float]]:
         """Body -> (origin [m], angle [rad]) at one sample, in the form of a mechanism's `pose`."""
         sample = Arguments("a motion", MechanismError).whole("sample", sample, least=-len(self), most=len(self) - 1)
@@ -183,15 +190,6 @@ class Motion(Framed):
     def alpha(self, body: str) -> Reals:
         """Angular acceleration of a body [rad/s^2]."""
         return self._reals(self.body(body).alpha)
-
-    def jerk(self, body: str) -> Reals:
-        """Third rate of a body's angle [rad/s^3]."""
-        return self._reals(self._jerk(body).beta)
-
-    def point_jerk(self, body: str, point: str = "") -> Points:
-        """Jerk of a point, "body.point", or of a body and a point's name [m/s^3]."""
-        carrier, local = self._located(body, point)
-        return self._points(self._jerk(carrier).carry(local))
 
     def _located(self, body: str, point: str) -> tuple[str, complex]:
         mechanism = self.plan.mechanism

@@ -33,8 +33,9 @@ from numba.core.caching import NullCache
 from ilmek.num.compiled import COMPILATIONS, Kernel
 from ilmek.num.installed_kernels import baseline, read_installed
 from ilmek.num.private_files import ENTRY, private_folder, read_entry, remove_entry, write_entry
+from ilmek.records import JsonObject
 
-OPTIONS: dict[str, Any] = {
+OPTIONS: JsonObject = {
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract"},

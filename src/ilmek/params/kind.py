@@ -99,7 +99,7 @@ def text(default: str | None, *, doc: str, symbol: str = "") -> Any:
     return param(default, doc=doc, symbol=symbol)
 
 
-def nested(cls: Callable[[], Any], *, doc: str, default: Any = None) -> Any:
+def nested(cls: Callable[[], Any], *, doc: str, default: object = None) -> Any:
     """Declare a field that holds other `Params`; its parameters are set by dotted names, `pile_handler.rise`.
 
     default  the record whose values are the defaults here; without one those of the class

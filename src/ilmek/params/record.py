@@ -19,7 +19,7 @@ from typing import Any, TypeVar
 
 from ilmek.errors import ParameterError, restated
 from ilmek.params.parameter import Parameter, Setting, Value
-from ilmek.records import brief
+from ilmek.records import JsonObject, brief
 
 P = TypeVar("P", bound="Params")
 
@@ -94,7 +94,7 @@ class Params:
         Raises ParameterError for an unknown name, and for a parameter set by its name and by its alias.
         """
         own, below = _sorted_settings(cls, settings, prefix)
-        values: dict[str, Any] = {}
+        values: JsonObject = {}
         for parameter, setting in own:
             shown = replace(parameter, name=f"{prefix}{parameter.name}")
             values[parameter.name] = value = shown.read(setting)
@@ -116,7 +116,7 @@ class Params:
                 head, _, rest = name.partition(".")
                 groups.setdefault(head, {})[rest] = value
         below = {head: getattr(self, head).with_values(rest) for head, rest in groups.items()}
-        changes: dict[str, Any] = {**own, **below}
+        changes: JsonObject = {**own, **below}
         return replace(self, **changes) if changes else self
 
     def as_dict(self) -> dict[str, Value]:

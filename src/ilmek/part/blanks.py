@@ -247,6 +247,7 @@ def is_round(shape: Shape) -> bool:
     return float(np.abs(shape.section.outline.points - middle).max()) <= _SQUARE * min(size.real, size.imag)
 
 
+@lru_cache(maxsize=4096)
 def flat_of(plate: Prism) -> tuple[float, float, float, float]:
     """Thickness, both sides of the blank, and length of the cut of a plate, flat or bent; of a board its least side."""
     sheet = folded_sheet(plate)

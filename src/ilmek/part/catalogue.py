@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.belts import BeltType
@@ -338,6 +339,7 @@ def length_of(part: Part) -> float:
     return float(shape_box(part.shape)[1][2])
 
 
+@lru_cache(maxsize=1024)
 def face_of(part: Part) -> float:
     """Width of a motor or reducer [m]."""
     assert part.shape is not None
@@ -345,6 +347,7 @@ def face_of(part: Part) -> float:
     return float(high[0] - low[0])
 
 
+@lru_cache(maxsize=256)
 def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ...] = ()) -> Part:
     """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))

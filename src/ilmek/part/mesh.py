@@ -1,9 +1,10 @@
 """Closed surfaces of triangles of extruded and turned shapes, in the part's own axes."""
 
 from collections.abc import Iterable, Sequence
+from importlib import import_module
+from typing import Any
 
 import numpy as np
-from manifold3d import Manifold, Mesh64
 
 from ilmek.arrays import ComplexArray, IntArray
 from ilmek.part.convex import prism_corners, ring_corners
@@ -84,5 +85,7 @@ def without(solid: Solid, cutters: Iterable[Solid]) -> Solid:
     return Solid(np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, dtype=int))
 
 
-def _manifold(solid: Solid) -> Manifold:
-    return Manifold(Mesh64(np.ascontiguousarray(solid.points, float), solid.triangles.astype(np.uint64)))
+def _manifold(solid: Solid) -> Any:
+    library = import_module("manifold3d")  # a linkage needs no solids
+    points = np.ascontiguousarray(solid.points, float)
+    return library.Manifold(library.Mesh64(points, solid.triangles.astype(np.uint64)))

@@ -167,6 +167,15 @@ class BodyPoints:
     axis: Placement | None = None
 
 
+@lru_cache(maxsize=512)
+def _own_reaches(
+    extents: tuple[BodyPoints, ...], direction: tuple[float, ...]
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
+    """Largest distances of points from an axis through the origin, and from the origin [m]."""
+    farthest = _greatest(extents, np.linalg.norm(np.concatenate([own.points for own in extents]), axis=1))
+    return _across(extents, np.array(direction)), farthest
+
+
 def _across(extents: Sequence[BodyPoints], axis: FloatArray) -> Float[np.ndarray, " n"]:
     """Largest distances of points from an axis through the origin [m]."""
     reached = _greatest(extents, np.linalg.norm(_cross(np.concatenate([own.points for own in extents]), axis), axis=1))
@@ -247,12 +256,11 @@ class ChainTravel:
                 pivot = own
         return whole.reshape(len(reaches), 3, *angles.shape)
 
-    def reaches(self, extents: Sequence[BodyPoints]) -> Float[np.ndarray, "n links"]:
+    def reaches(self, extents: tuple[BodyPoints, ...]) -> Float[np.ndarray, "n links"]:
         """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each."""
         # From the last link to the first: the points' distance from the axis, their distance from the origin, the axis.
         axis = _unit(self.chain[-1].body.joint.axis)
-        across = _across(extents, axis)
-        farthest = _greatest(extents, np.linalg.norm(np.concatenate([own.points for own in extents]), axis=1))
+        across, farthest = _own_reaches(extents, tuple(axis.tolist()))
         reaches = [across]
         for link, beyond in zip(self.chain[-2::-1], self.chain[::-1], strict=False):
             own, offset = _unit(link.body.joint.axis), beyond.position.origin

@@ -34,9 +34,10 @@ class Piece:
     few: Collider | None = None
 
     @cached_property
-    def corners(self) -> Float[np.ndarray, "8 3"]:
-        """Corners of its box in the body's axes [m]."""
-        return _box_corners(self.extent.points)
+    def box(self) -> Float[np.ndarray, "2 3"]:
+        """Middle and half sides of its box in the body's axes [m]."""
+        low, high = self.extent.points.min(0), self.extent.points.max(0)
+        return np.stack([low + high, high - low]) / 2
 
     @cached_property
     def extent(self) -> BodyPoints:
@@ -67,7 +68,7 @@ class SweptPieces:
     @cached_property
     def reaches(self) -> Float[np.ndarray, "pieces links"]:
         """Largest distances of the points of each piece from the axis of each link's joint [m]."""
-        return self.travel.reaches([piece.extent for piece in self.pieces])
+        return self.travel.reaches(tuple(piece.extent for piece in self.pieces))
 
     def moved(self, number: int, shared: int) -> FloatArray:
         """Travel of a piece at the angles, by the links of its chain after the shared ones [m]."""
@@ -97,23 +98,20 @@ class SweptPieces:
         if not any(self.travel.moves[shared:]):
             resting = _at_rest(self.chain[-1].body.occurrences, tuple((link.body, link.index) for link in chain))
             return np.broadcast_to(resting[:, None], size)
-        corners, at = np.stack([piece.corners for piece in self.pieces]), poses(chain, drive, self.ends.ravel())
+        middles, halves = np.stack([piece.box for piece in self.pieces], axis=1)
+        at, samples = poses(chain, drive, self.ends.ravel()), self.ends.shape
         if any(link.turns(drive) for link in chain):
-            points = at.points(corners.reshape(-1, 3)).reshape(*self.ends.shape, len(self.pieces), 8, 3)
-            low, high = points.min((1, 3)).swapaxes(0, 1), points.max((1, 3)).swapaxes(0, 1)
+            points, wide = at.points(middles), halves @ np.abs(at.rotation).swapaxes(1, 2)
+            low, high = ((points + side * wide).reshape(*samples, -1, 3) for side in (-1, 1))
+            low, high = low.min(1).swapaxes(0, 1), high.max(1).swapaxes(0, 1)
         else:
-            points, origins = corners @ at.rotation[0].T, at.origin.reshape(*self.ends.shape, 3)
-            low, high = points.min(1)[:, None] + origins.min(1), points.max(1)[:, None] + origins.max(1)
+            points, wide = middles @ at.rotation[0].T, halves @ np.abs(at.rotation[0]).T
+            origins = at.origin.reshape(*samples, 3)
+            low, high = (points - wide)[:, None] + origins.min(1), (points + wide)[:, None] + origins.max(1)
         along = ChainTravel(chain, drive, self.travel.angles).along_axes(self.reaches[:, shared:], self.ends)
         # Between two samples a point leaves the box of its ends by half of its travel at most.
         margin = (np.diff(along, axis=-1).max(-1) / 2).swapaxes(1, 2)
         return np.stack([low - margin, high + margin], axis=2)
-
-
-def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 3"]:
-    """Corners of the box about points in their own frame."""
-    low, high = points.min(0), points.max(0)
-    return np.array([np.where(chosen, high, low) for chosen in np.ndindex(2, 2, 2)])
 
 
 Links = tuple[tuple[RigidBody, int], ...]
@@ -192,4 +190,5 @@ def gaps_of_two(
 ) -> Float[np.ndarray, "*n intervals"]:
     """Distances of boxes and others [m]."""
     apart = np.maximum(own[..., 0, :] - its[..., 1, :], its[..., 0, :] - own[..., 1, :])
-    return np.asarray(np.linalg.norm(np.maximum(apart, 0.0), axis=-1))
+    x, y, z = (np.maximum(apart[..., axis], 0.0) for axis in range(3))  # `norm` of so short rows takes longer
+    return np.asarray(np.sqrt(x * x + y * y + z * z))

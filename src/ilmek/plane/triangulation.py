@@ -6,9 +6,9 @@ An ear is a corner that turns left and whose triangle contains no other corner.
 
 import itertools
 from collections.abc import Sequence
+from importlib import import_module
 
 import numpy as np
-from mapbox_earcut import triangulate_float64
 
 from ilmek.arrays import Complex, ComplexArray, Int, IntArray
 from ilmek.errors import IlmekError
@@ -37,7 +37,8 @@ def triangles(
     rings = (outline, *holes)
     points = np.concatenate(rings)
     ends = np.cumsum([len(ring) for ring in rings])
-    clipped = triangulate_float64(np.stack([points.real, points.imag], axis=1), ends.astype(np.uint32))
+    clip = import_module("mapbox_earcut").triangulate_float64  # a linkage needs no triangles
+    clipped = clip(np.stack([points.real, points.imag], axis=1), ends.astype(np.uint32))
     faces = clipped.reshape(-1, 3).astype(np.int64)
     within = sum(float(np.sum(cross(ring, following(ring)))) for ring in rings)
     first, second, third = points[faces].T

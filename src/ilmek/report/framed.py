@@ -96,7 +96,7 @@ class RecordTable(Generic[Row]):
         return f"<table>{''.join(f'<tr>{line}</tr>' for line in cells)}</table>"
 
 
-def data_frame(columns: Mapping[str, Any]) -> Any:
+def data_frame(columns: Mapping[str, object]) -> Any:
     """Columns as a DataFrame of pandas or polars, whichever is installed. Raises ParameterError without either."""
     for library in ("pandas", "polars"):
         with suppress(ImportError):

@@ -73,6 +73,12 @@ class Sentence(str):
         return (self.key,), dict(self.values)
 
 
+class Name(str):
+    """A name that somebody gave: it is said in no other language, and keeps its digits."""
+
+    __slots__ = ()
+
+
 _NOUNS = {text: key for key, text in NOUNS.items()}
 
 

@@ -89,6 +89,7 @@ WEAVER = {
     "legend.outline": "Legend",
     "legend.title": "Legend: {colours}, {knots} knots",
     "legend.continued": "Legend, continued",
+    "legend.outside": "outside of the shape: plain ground, which is cut away",
     "legend.knots": "knots",
     "legend.share": "share",
     "legend.length": "length [m]",
@@ -138,6 +139,13 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: half knots on left, right warps",
     "rows.jufti-cells": "; j: jufti knots",
+    "kilim.rows": "Each run is a weft on a bobbin of its own; a row has {picks} picks, out and back. A row of "
+    "text: its number, then its runs from left to right.",
+    "kilim.joins": "Between two runs: | nothing, a slit; v dovetail, both round one warp; x interlock, each round "
+    "the other.",
+    "kilim.legend": "Colours: {colours}; {cells} cells",
+    "kilim.marks": "Thick line: slit. Teeth: dovetail, both wefts round one warp. Wave: interlock, each weft round "
+    "the other. Where knots are counted, they are cells of two warps.",
     "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",
     "rows.text": "{size}, {quality}, {knot} knot; row 1 is the first that is woven, at the lower edge.",
     "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank "

@@ -80,6 +80,7 @@ WEAVER = {
     "legend.outline": "Renkler",
     "legend.title": "Renkler: {colours}, {knots} ilmek",
     "legend.continued": "Renkler, devamı",
+    "legend.outside": "biçimin dışı: düz zemin, sonra kesilir",
     "legend.knots": "ilmek",
     "legend.share": "pay",
     "legend.length": "uzunluk [m]",
@@ -129,6 +130,13 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: sol, sağ çözgülerde yarım ilmekler",
     "rows.jufti-cells": "; j: çift ilmekler (cufti)",
+    "kilim.rows": "Her parça kendi makarasında bir atkıdır; bir sırada gidiş geliş {picks} atkı vardır. Metnin bir "
+    "satırı: sıra numarası, sonra soldan sağa parçaları.",
+    "kilim.joins": "İki parça arasında: | hiçbir şey, yarık; v ortak çözgü, ikisi de bir çözgüden döner; x "
+    "kenetleme, biri ötekinden döner.",
+    "kilim.legend": "Renkler: {colours}; {cells} göz",
+    "kilim.marks": "Kalın çizgi: yarık. Dişler: ortak çözgü, iki atkı da bir çözgüden döner. Dalga: kenetleme, biri "
+    "ötekinden döner. İlmek sayılan yerde, iki çözgülük gözlerdir.",
     "rows.text-plain": "12{sign}: ilmeksiz 12 göz, bez ayağı dokuma.",
     "rows.text": "{size}, {quality}, {knot} ilmek; 1. sıra ilk dokunan, alt kenardaki sıradır.",
     "rows.text-signs": ">: soldan sağa okunur; <: sağdan sola. Boşlukla başlayan satır üstündekini sürdürür.",

@@ -133,7 +133,7 @@ def _continuous(variables: tuple[Variable, ...], purpose: str) -> None:
             raise ParameterError(f"{variable.name} is no real number", allowed=f"{purpose} need real numbers")
 
 
-def _problem(variables: tuple[Variable, ...]) -> dict[str, Any]:
+def _problem(variables: tuple[Variable, ...]) -> JsonObject:
     return {"num_vars": len(variables), "names": [v.name for v in variables], "bounds": [[0.0, 1.0]] * len(variables)}
 
 

@@ -37,7 +37,9 @@ class StudyFile:
     columns  names of variables, then of results
     """
 
-    def __init__(self, path: Path, plan: Mapping[str, Any], variables: Sequence[str], results: Sequence[str]) -> None:
+    def __init__(
+        self, path: Path, plan: Mapping[str, object], variables: Sequence[str], results: Sequence[str]
+    ) -> None:
         self.path, self.variables = path, tuple(variables)
         self.results = tuple(f"{name} (result)" if name in variables else name for name in results)
         self._plan = {"format": FORMAT, **plan}

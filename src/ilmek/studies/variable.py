@@ -81,6 +81,10 @@ class Variable:
             return self.choices[int(value)]
         return int(value) if self.whole else float(value)
 
+    def column(self, points: Float[np.ndarray, " n"]) -> np.ndarray:
+        """The values of many designs: numbers [SI], or the texts of choices."""
+        return np.array(self.choices)[points.astype(int)] if self.choices else points
+
     def shown(self, value: float) -> str:
         """The value in words, with its unit, so exact that it is read again as it is."""
         setting = self.setting(value)

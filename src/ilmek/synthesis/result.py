@@ -6,7 +6,7 @@ cos mu = (b² + c² - |A B0|²) / (2 b c)      least transmission angle: of mu a
 
 import math
 from collections.abc import Iterator
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -103,7 +103,7 @@ class Synthesis(Framed, Generic[Details]):
         return {heading: np.array(values, float) for heading, values in columns.items()}
 
 
-def transmission_over(four_bar: FourBar, cranks: Any) -> float:
+def transmission_over(four_bar: FourBar, cranks: object) -> float:
     """Least transmission angle of a four-bar [rad] at crank angles in the ground frame [rad].
 
     >>> drawn = FourBar(0j, 4 + 0j, 1 + 0j, 2.5 + 1.5j)

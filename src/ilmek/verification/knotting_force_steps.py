@@ -4,8 +4,9 @@ Forces at rest [N] and by ω1² [N s²]; inertia forces are printed in mN, and m
 """
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
+from ilmek.records import JsonObject
 from ilmek.units import mm, mN
 from ilmek.verification.claim import Step
 from ilmek.verification.knotting_pose import xy
@@ -33,7 +34,7 @@ class SlippedStep(NamedTuple):
     slips: tuple[str, ...] = ()
     right: VectorStep | None = None
 
-    def of_claim(self) -> dict[str, Any]:
+    def of_claim(self) -> JsonObject:
         """The arguments of a claim."""
         return self._asdict()
 

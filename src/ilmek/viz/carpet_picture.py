@@ -21,8 +21,8 @@ from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
-from ilmek.viz.cells_picture import cut_out, with_flat_weave, with_relief
-from ilmek.viz.tufts import encoded, marked_tufts, tufted, yarn_light
+from ilmek.viz.cells_picture import cut_out, with_carving, with_flat_weave, with_relief, with_sheen
+from ilmek.viz.tufts import Light, encoded, marked_tufts, tufted, yarn_light
 
 LONGEST = 1400
 """Number of pixels along the longer side of the picture, where no width is given."""
@@ -148,10 +148,10 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
     across = _CLOSE_WIDTH // _CLOSE_UP[0]
     down = max(2, round(across * chart.quality.across / chart.quality.along))
     srgb = [yarn.srgb for yarn in chart.shades]
-    light = with_relief(yarn_light(chart.shaded[part], srgb, rng, 0.06), chart, part)
+    light = _lit(yarn_light(chart.shaded[part], srgb, rng, 0.06), chart, rng, part)
     marked = marked_tufts(chart.overlay, (top, left), (rows, columns), srgb, rng)
     drawn = tufted(light, across * columns, down * rows, rng, fibre=_FIBRE, marked=marked)
-    return _jpeg(Image.fromarray(with_flat_weave(drawn, chart, rng, part)), 86)
+    return _jpeg(Image.fromarray(with_flat_weave(with_carving(drawn, chart, part), chart, rng, part)), 86)
 
 
 def shown_size(size: CarpetSize) -> tuple[float, float]:
@@ -176,10 +176,10 @@ def _drawn(chart: Chart, layout: _Layout, seed: int, progress: Progress) -> Imag
 def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Progress) -> Rgb:
     if layout.width >= 2 * chart.columns and layout.height >= 2 * chart.rows:
         srgb = [yarn.srgb for yarn in chart.shades]
-        light = with_relief(yarn_light(chart.shaded, srgb, rng, 0.05), chart, _ALL)
+        light = _lit(yarn_light(chart.shaded, srgb, rng, 0.05), chart, rng, _ALL)
         marked = marked_tufts(chart.overlay, (0, 0), (chart.rows, chart.columns), srgb, rng)
         drawn = tufted(light, layout.width, layout.height, rng, marked=marked, progress=progress)
-        return with_flat_weave(drawn, chart, rng, _ALL)
+        return with_flat_weave(with_carving(drawn, chart, _ALL), chart, rng, _ALL)
     height, width = min(layout.height, chart.rows), min(layout.width, chart.columns)
     palette, size = chart.colour_table, (chart.rows, chart.columns)
     mean = resampled_rows(lambda part: palette[chart.knots[part]], size, (height, width), progress)
@@ -190,6 +190,11 @@ def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Pro
         light = LINEAR[mean[band]].astype(np.float32)
         out[band] = encoded(light * (shades[band, np.newaxis] * grain)[:, :, np.newaxis])
     return out
+
+
+def _lit(light: Light, chart: Chart, rng: np.random.Generator, part: tuple[slice, slice]) -> Light:
+    """The light of knots (a part of the chart) with what lies beside their colour: relief, and the gloss of silk."""
+    return with_sheen(with_relief(light, chart, part), chart, rng, part)
 
 
 def _framed(chart: Chart, pile: Image.Image, layout: _Layout, rng: np.random.Generator) -> Image.Image:

@@ -37,7 +37,7 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     shown = section(1, report, [] if left_out is None else left_out)
     checks = failures_first(judged(report.all_checks, ()))
     ends = [("tests", TESTS)] if report.all_self_tests else []
-    starts = [("checks", "Checks")] if checks else []
+    starts = shown.drawn_contents + ([("checks", "Checks")] if checks else [])
     starts += [("choices", "What was chosen")] if report.all_choices else []
     return render(
         "machine.html.j2",

@@ -63,15 +63,21 @@ class PageSection:
     figures: tuple[Drawn, ...]
 
     @property
+    def drawn_contents(self) -> list[tuple[str, str]]:
+        """Anchor and title of what moves and of the figures."""
+        return self._contents([("motion", "In motion", bool(self.moving)), ("figures", "Figures", bool(self.figures))])
+
+    @property
     def contents(self) -> list[tuple[str, str]]:
-        """Anchor and title of each part that it has."""
+        """Anchor and title of each of its parts in numbers."""
         parts = [
-            ("motion", "In motion", bool(self.moving)),
-            ("figures", "Figures", bool(self.figures)),
             ("results", "Results", any(result.shown for result in self.report.results)),
             *((f"table-{index}", table.title, True) for index, table in enumerate(self.report.tables, 1)),
             ("parameters", "Parameters", bool(self.report.parameters)),
         ]
+        return self._contents(parts)
+
+    def _contents(self, parts: list[tuple[str, str, bool]]) -> list[tuple[str, str]]:
         return [(f"{self.id}-{name}", title) for name, title, there in parts if there]
 
 

@@ -1,7 +1,8 @@
-"""The page of a carpet by a tufting machine or a gun: verdict, picture, yarn of each colour, cost, checks, files."""
+"""The page of a carpet by a tufting machine or a gun, or as a kilim: verdict, picture, colours, cost, checks, files."""
 
 from collections.abc import Mapping, Sequence
 
+from ilmek.carpet.kilim_cloth import KilimCloth
 from ilmek.machines.tufting_machine.picture import TuftedPicture
 from ilmek.records import JsonObject
 from ilmek.report import Check, Result, reasons
@@ -31,10 +32,13 @@ def tufted_page(
     amounts: tuple[Amount, ...],
     cost: Mapping[str, float | None],
     apart: tuple[str, ...],
+    does: str = "tuft",
+    programme: str = "programme",
     **more: object,
 ) -> str:
     """The page as self-contained HTML.
 
+    maker, does     who makes the carpet, and does what     programme  what is missing where it cannot be made
     results, files  declared results, and names of the files of the folder      apart  results that are shown elsewhere
     cones, colours  of the carpet, in one order                                 amounts  columns of the colours' table
     """
@@ -42,8 +46,8 @@ def tufted_page(
         template,
         title=title,
         verdict=PageVerdict(
-            f"The {maker} tufts this carpet.",
-            f"The {maker} cannot tuft this carpet as it is, and there is no programme.",
+            f"The {maker} {does}s this carpet.",
+            f"The {maker} cannot {does} this carpet as it is, and there is no {programme}.",
             len(checks),
             reasons(checks),
         ),
@@ -55,6 +59,36 @@ def tufted_page(
         first_checks_shown=FIRST_CHECKS,
         files=files,
         **more,
+    )
+
+
+def kilim_page(
+    title: str,
+    cloth: KilimCloth,
+    *,
+    results: Sequence[Result],
+    checks: Sequence[Check],
+    files: Sequence[str],
+    drawn: DrawnCarpet,
+) -> str:
+    """The page of a kilim."""
+    yarns = [yarn for yarn, mass in zip(cloth.chart.yarns, cloth.masses, strict=True) if mass]
+    return tufted_page(
+        "kilim.html.j2",
+        f"{title}: kilim",
+        maker="weaver",
+        does="weave",
+        programme="rows.txt",
+        results=results,
+        checks=checks,
+        files=files,
+        cones=[Cone(yarn.name, yarn.hex, None) for yarn in yarns],
+        colours=cloth.kilim_colours,
+        amounts=(),
+        cost=cloth.kilim_cost,
+        apart=("kilim_colours", "kilim_cost"),
+        picture=address(drawn.jpeg, "jpeg"),
+        lead=cloth.in_words,
     )
 
 

@@ -32,7 +32,7 @@ def messages(endpoints: Iterable[Endpoint] = ENDPOINTS) -> JsonObject:
     }
 
 
-def _draft_7(schema: Any) -> Any:
+def _draft_7(schema: object) -> Any:
     """A schema with the tuples of draft 7, `items` as a list, as the generator of types reads them."""
     if isinstance(schema, list):
         return [_draft_7(one) for one in schema]
@@ -87,7 +87,7 @@ def _custom(kind: type) -> JsonObject:
     raise TypeError(f"{kind} in a record of the API")
 
 
-def _reached(schemas: Iterable[Any], components: JsonObject) -> set[str]:
+def _reached(schemas: Iterable[object], components: JsonObject) -> set[str]:
     """The names of the records that schemas refer to, directly or not."""
     names: set[str] = set()
     waiting = list(schemas)

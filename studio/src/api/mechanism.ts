@@ -1083,6 +1083,10 @@ export interface Torque {
    */
   slip?: number | string;
   /**
+   * line and limit meet in a corner; default: false, rounded
+   */
+  sharp?: boolean;
+  /**
    * of rotor and flywheel at the input; default: 0
    */
   inertia?: number | string;
@@ -1100,6 +1104,10 @@ export interface Force {
    * default: 5 %
    */
   slip?: number | string;
+  /**
+   * line and limit meet in a corner; default: false, rounded
+   */
+  sharp?: boolean;
   /**
    * at the input; default: 0
    */

@@ -172,12 +172,14 @@ export interface ChartYarn {
 /**
  * A line of the bill: yarn and use (pile, warp, weft, end, selvedge, binding), knots (0 but for the pile).
  *
+ *     material      of the yarn, of MATERIALS
  *     bought        name under which it is bought; a yarn on several positions of the creel has one, as in its list
  *     length, mass  needed, waste included [m], [kg]
  *     price         of what is to buy, reserve included; None where no price per kg is known
  *     count         metric count and ply, like 5/2; "" for the ground
  *     kept          mass that stays in the carpet [kg]
  *     to_buy        mass with the reserve [kg]           hanks     to buy, whole ones
+ *     carved        of the mass, what is cut away along carved lines [kg]
  *     lots          dye lots for the mass to buy         lot_rows  rows, from 1 at the lower edge, where a new lot begins
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -197,6 +199,8 @@ export interface YarnNeed {
   lots: number;
   lot_rows: number[];
   bought: string;
+  material: string;
+  carved: number;
 }
 /**
  * A yarn of the list: name and colour `#rrggbb`.

@@ -3,13 +3,14 @@ import { useEffect, useState } from "preact/hooks";
 import { connection } from "../api/connection";
 import { Conflicts } from "../project";
 import { t } from "../text";
-import { Icon, IconButton, toast } from "../ui";
+import { Icon, IconButton, later, toast } from "../ui";
 import { Toasts } from "../ui/toast";
-import { HelpDialog, listenForHelp } from "./help-dialog";
 import icon from "./icon.svg";
 import { address, route, VIEWS } from "./routes";
-import { SettingsDialog } from "./settings-dialog";
 import { CurrentView } from "./view";
+
+const HelpDialog = later(async () => (await import("./help-dialog")).HelpDialog);
+const SettingsDialog = later(async () => (await import("./settings-dialog")).SettingsDialog);
 
 /** The frame: navigation, connection, messages, and the view of the address. */
 export function App() {
@@ -40,15 +41,16 @@ export function App() {
       </div>
       <Toasts />
       <Conflicts />
-      <SettingsDialog
-        open={settings}
-        onClose={() => setSettings(false)}
-        onHelp={() => {
-          setSettings(false);
-          setHelp(true);
-        }}
-      />
-      <HelpDialog view={route.value.view} open={help} onClose={() => setHelp(false)} />
+      {settings && (
+        <SettingsDialog
+          onClose={() => setSettings(false)}
+          onHelp={() => {
+            setSettings(false);
+            setHelp(true);
+          }}
+        />
+      )}
+      {help && <HelpDialog view={route.value.view} onClose={() => setHelp(false)} />}
     </div>
   );
 }
@@ -103,4 +105,16 @@ function Lost() {
       <p>{t("app.lostHelp")}</p>
     </div>
   );
+}
+
+/** Opens the help by "?", where no text is typed; returns what ends it. */
+function listenForHelp(show: () => void): () => void {
+  const pressed = (event: KeyboardEvent) => {
+    const typing = (event.target as HTMLElement).matches("input:not([type=range]), textarea, select");
+    if (event.key !== "?" || typing || event.defaultPrevented || document.querySelector("dialog[open]")) return;
+    event.preventDefault();
+    show();
+  };
+  addEventListener("keydown", pressed);
+  return () => removeEventListener("keydown", pressed);
 }

@@ -3,8 +3,7 @@ import { Dialog } from "../ui";
 import type { View } from "./routes";
 
 /** What one does in a view, its keys, and the keys that work everywhere. */
-export function HelpDialog({ view, open, onClose }: { view: View; open: boolean; onClose: () => void }) {
-  if (!open) return null;
+export function HelpDialog({ view, onClose }: { view: View; onClose: () => void }) {
   const everywhere = [
     ["Ctrl+Z", t("app.keyUndo")],
     ["Ctrl+Shift+Z", t("app.keyRedo")],
@@ -14,7 +13,7 @@ export function HelpDialog({ view, open, onClose }: { view: View; open: boolean;
     ["?", t("app.keyHelp")],
   ] as const;
   return (
-    <Dialog title={`${t("app.help")}: ${t(`app.${view}`)}`} open={open} onClose={onClose}>
+    <Dialog title={`${t("app.help")}: ${t(`app.${view}`)}`} open onClose={onClose}>
       <p>{t(`app.${view}Help`)}</p>
       <h3>{t("app.keysHere")}</h3>
       {keysOf(view).map((text) => (
@@ -46,16 +45,4 @@ function keysOf(view: View): string[] {
     files: [t("app.keysFiles")],
   };
   return own[view];
-}
-
-/** Opens the help by "?", where no text is typed; returns what ends it. */
-export function listenForHelp(show: () => void): () => void {
-  const pressed = (event: KeyboardEvent) => {
-    const typing = (event.target as HTMLElement).matches("input:not([type=range]), textarea, select");
-    if (event.key !== "?" || typing || event.defaultPrevented || document.querySelector("dialog[open]")) return;
-    event.preventDefault();
-    show();
-  };
-  addEventListener("keydown", pressed);
-  return () => removeEventListener("keydown", pressed);
 }

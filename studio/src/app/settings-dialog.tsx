@@ -3,15 +3,14 @@ import { Button, Dialog, Segments } from "../ui";
 import { chooseLanguage, chooseTheme, THEMES, theme } from "./settings";
 
 interface SettingsProps {
-  open: boolean;
   onClose: () => void;
   onHelp: () => void;
 }
 
-export function SettingsDialog({ open, onClose, onHelp }: SettingsProps) {
+export function SettingsDialog({ onClose, onHelp }: SettingsProps) {
   const names = { auto: t("app.themeAuto"), light: t("app.themeLight"), dark: t("app.themeDark") };
   return (
-    <Dialog title={t("app.settings")} open={open} onClose={onClose}>
+    <Dialog title={t("app.settings")} open onClose={onClose}>
       <div class="app-settings">
         <Segments
           label={t("app.theme")}

@@ -1,6 +1,6 @@
 import { type ComponentType, h } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { t } from "../text";
+import { loadTexts, t } from "../text";
 import { Button } from "../ui";
 import { Boundary } from "./boundary";
 import { ready } from "./ready";
@@ -27,8 +27,8 @@ export function CurrentView() {
   const first = useRef(true);
   const load = () => {
     setFailed(null);
-    LOADERS[view]().then(
-      (module) => {
+    Promise.all([LOADERS[view](), view === "carpet" ? undefined : loadTexts()]).then(
+      ([module]) => {
         loaded.set(view, module.default);
         redraw((count) => count + 1);
       },

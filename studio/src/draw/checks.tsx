@@ -1,13 +1,11 @@
 import { useState } from "preact/hooks";
-import { formatNumber, t } from "../text";
-import { Button, Icon } from "../ui";
+import { t } from "../text";
+import { Button, binding, Icon, type Judged } from "../ui";
 
 /** A check as the server shows it. */
-export interface CheckShown {
-  name: string;
+export interface CheckShown extends Judged {
   /** The machine in it that the check is of, "" for its own. */
   machine?: string;
-  ok: boolean;
   value_text: string;
   /** With its relation. */
   limit_text: string;
@@ -17,37 +15,32 @@ export interface CheckShown {
   cure: string;
 }
 
-const AT_FIRST = 12;
+/** The checks that bind are shown before all are asked for, more only where they fail. */
+const AT_FIRST = 4;
 
-/** Checks, those that fail first: each with an icon, a word, its value against its limit, and what to do. */
+/** Checks in the order in which they bind: each with an icon, a word, its value against its limit, and what to do. */
 export function CheckList({ checks }: { checks: readonly CheckShown[] }) {
   const [all, setAll] = useState(false);
-  const failed = checks.filter((check) => !check.ok);
-  const sorted = [...failed, ...checks.filter((check) => check.ok)];
-  const shown = all ? sorted : sorted.slice(0, Math.max(AT_FIRST, failed.length));
+  const sorted = binding(checks);
+  const failed = sorted.filter((check) => !check.ok).length;
+  const shown = all ? sorted : sorted.slice(0, Math.max(AT_FIRST, failed));
   return (
-    <div class="ui-stack">
-      <p class={`check-verdict ${failed.length > 0 ? "bad" : "good"}`} role="status">
-        <Icon name={failed.length > 0 ? "error" : "good"} />
-        {failed.length > 0
-          ? t("ui.checksFail", { failed: failed.length, count: checks.length })
-          : t("ui.checksHold", { count: checks.length })}
-      </p>
+    <div class="check-list">
       <ul class="checks" aria-label={t("ui.checks")}>
         {shown.map((check) => (
-          <Row key={`${check.machine ?? ""}: ${check.name}`} check={check} />
+          <Row key={`${check.machine ?? ""}: ${check.name}`} check={check} whole={all} />
         ))}
       </ul>
       {sorted.length > shown.length || all ? (
         <Button kind="quiet" size="small" onClick={() => setAll(!all)}>
-          {all ? t("ui.showLess") : t("ui.showAll")} ({formatNumber(checks.length)})
+          {all ? t("ui.showLess") : t("ui.allChecks", { count: checks.length })}
         </Button>
       ) : null}
     </div>
   );
 }
 
-function Row({ check }: { check: CheckShown }) {
+function Row({ check, whole }: { check: CheckShown; whole: boolean }) {
   return (
     <li class={`check ${check.ok ? "" : "bad"}`}>
       <Icon name={check.ok ? "connected" : "error"} label={check.ok ? t("ui.holds") : t("ui.fails")} />
@@ -61,7 +54,7 @@ function Row({ check }: { check: CheckShown }) {
           <b>{check.value_text}</b> {check.limit_text}
         </span>
         {check.ok ? (
-          check.source && <p class="check-source">{check.source}</p>
+          whole && check.source && <p class="check-source">{check.source}</p>
         ) : (
           <p class="check-cure">
             <b>{t("ui.fails")}.</b> {check.cure || check.source}

@@ -10,10 +10,12 @@ import { between, frameAt, phaseAt, rangeOf, reachOf, shapeAt, shareAt, stepsOf 
 import { type Named, paintNames } from "./names";
 import { paintScaleBar, Stage } from "./stage";
 import { byRole, paintDot, paintStroke } from "./strokes";
-import { type Extent, type Map2D, mapOf, type View, WHOLE } from "./viewport";
+import { type Extent, include, type Map2D, mapOf, type View, WHOLE } from "./viewport";
 
 interface PlayerProps {
   animation: ShownAnimation;
+  /** Another state, pale behind it. */
+  ghost?: ShownAnimation | null | undefined;
   title: string;
   height?: number | undefined;
   /** The box that is shown [m]; without it all positions that are reached. */
@@ -26,10 +28,15 @@ interface PlayerProps {
 const RUNS = [16, 8, 4, 2, 1] as const;
 
 /** A machine in motion: played, or turned by its slider, which is the cursor of all figures over the same drive. */
-export function Player({ animation, title, height = 320, extent, autoplay = false }: PlayerProps) {
+export function Player({ animation, ghost, title, height = 320, extent, autoplay = false }: PlayerProps) {
   const cursor = useCursor(animation.drive.label);
   const range = useMemo(() => rangeOf(animation), [animation]);
-  const box = useMemo(() => extent ?? reachOf(animation), [animation, extent]);
+  const box = useMemo(() => {
+    const box = extent ?? reachOf(animation);
+    const pale = ghost && extent === undefined ? reachOf(ghost) : box;
+    include(box, [pale.left, pale.low, pale.right, pale.high]);
+    return box;
+  }, [animation, ghost, extent]);
   const view = useSignal<View>(WHOLE);
   const angle = isAngle(animation.drive.unit);
   const start = animation.at[animation.start] ?? range.low;
@@ -44,6 +51,16 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
     [animation, box],
     [view],
   );
+  const behind = useCanvas(
+    (context, width, high) => {
+      const map = mapOf(box, view.peek(), width, high);
+      for (const shape of ghost ? byRole(ghost.shapes) : []) {
+        if (ghost) paintStroke(context, shape, shapeAt(ghost, shape, frameAt(ghost, inside()), map));
+      }
+    },
+    [ghost, box],
+    [view, cursor.at],
+  );
   const moving = useCanvas(
     (context, width, high) => {
       const map = mapOf(box, view.peek(), width, high);
@@ -56,6 +73,7 @@ export function Player({ animation, title, height = 320, extent, autoplay = fals
     <div class="fig-player">
       <Stage label={title} height={height} view={view}>
         <canvas ref={still} />
+        <canvas class="fig-ghost" ref={behind} />
         <canvas ref={moving} />
       </Stage>
       <Controls animation={animation} cursor={cursor} range={range} at={inside()} autoplay={autoplay} />

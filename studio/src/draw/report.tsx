@@ -10,13 +10,17 @@ import { Gantt, StackedBars } from "./spans";
 import { Timing } from "./timing";
 
 /** A figure with its title and note. */
-export function Figure({ figure, autoplay = false }: { figure: ShownFigure; autoplay?: boolean }) {
+export function Figure({
+  figure,
+  ghost,
+  autoplay = false,
+}: Omit<BodyProps, "height" | "autoplay"> & { autoplay?: boolean }) {
   const { title, note } = aboutOf(figure);
   const wide = figure.timing || figure.gantt || figure.bars;
   return (
     <figure class={`figure${wide ? " wide" : ""}`}>
       <figcaption>{title}</figcaption>
-      <FigureBody figure={figure} autoplay={autoplay} />
+      <FigureBody figure={figure} ghost={ghost} autoplay={autoplay} />
       {note && <p class="ui-help">{note}</p>}
     </figure>
   );
@@ -24,18 +28,20 @@ export function Figure({ figure, autoplay = false }: { figure: ShownFigure; auto
 
 interface BodyProps {
   figure: ShownFigure;
+  /** Another state of it, pale behind what moves. */
+  ghost?: ShownFigure | undefined;
   autoplay: boolean;
   /** Height of curves and drawings [px]. */
   height?: number | undefined;
 }
 
 /** A figure without title and note. */
-export function FigureBody({ figure, autoplay, height }: BodyProps) {
+export function FigureBody({ figure, ghost, autoplay, height }: BodyProps) {
   const { plot, drawing, animation, timing, gantt, bars } = figure;
   const { title } = aboutOf(figure);
   if (plot) return <Plot plot={plot} title={title} height={height} />;
   if (drawing) return <Drawing drawing={drawing} title={title} height={height} />;
-  if (animation) return <Player animation={animation} title={title} autoplay={autoplay} height={height} />;
+  if (animation) return <Player animation={animation} ghost={ghost?.animation} {...{ title, autoplay, height }} />;
   if (timing) return <Timing timing={timing} title={title} />;
   if (gantt) return <Gantt gantt={gantt} title={title} />;
   return bars ? <StackedBars bars={bars} title={title} /> : null;

@@ -2,7 +2,7 @@ import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useMemo } from "preact/hooks";
 import { t } from "../text";
-import { IconButton, shownUnit } from "../ui";
+import { shownUnit, Zoom } from "../ui";
 import { FONT } from "./canvas";
 import { colours } from "./looks";
 import { roundStep, tickLabels } from "./ticks";
@@ -32,28 +32,16 @@ export function Stage({ label, height, view, children }: StageProps) {
       >
         {children}
       </div>
-      <div class="fig-zoom">
-        <IconButton
-          icon="plus"
-          size="small"
-          label={t("figure.zoomIn")}
-          onClick={() => (view.value = zoomed(view.peek(), 1.5))}
-        />
-        <IconButton
-          icon="minus"
-          size="small"
-          label={t("figure.zoomOut")}
-          disabled={view.value.zoom === 1}
-          onClick={() => (view.value = zoomed(view.peek(), 1 / 1.5))}
-        />
-        <IconButton
-          icon="fit"
-          size="small"
-          label={t("figure.zoomFit")}
-          disabled={whole}
-          onClick={() => (view.value = WHOLE)}
-        />
-      </div>
+      <Zoom
+        onZoom={(factor) => {
+          view.value = zoomed(view.peek(), factor);
+        }}
+        onFit={() => {
+          view.value = WHOLE;
+        }}
+        whole={whole}
+        least={view.value.zoom === 1}
+      />
     </div>
   );
 }

@@ -1,6 +1,5 @@
 /** The project in the browser. */
 export { type FileContent, type FileError, type FileSummary, fileAddress, type PictureSummary } from "./api";
-export { FileCommand } from "./command";
 export { Conflicts } from "./conflicts";
 export { type AnyDocument, Document, type SaveState as DocumentState } from "./document";
 export { follow } from "./follow";
@@ -23,3 +22,4 @@ export {
 } from "./project";
 export { SaveState } from "./save-state";
 export { useDocument } from "./use-document";
+export { ViewHead } from "./view-head";

@@ -92,8 +92,12 @@ function stateOf({ path, digest }: FileSummary): string {
 
 /** The text files of a kind: "carpet", "machine", "linkage", "synthesis", "cyclogram", "yarns". */
 export function filesOf(kind: string): readonly FileSummary[] {
-  return project.value?.files.filter((file) => file.kind === kind) ?? [];
+  const found = project.value?.files.filter((file) => file.kind === kind) ?? [];
+  return found.sort((a, b) => natural.compare(a.path, b.path));
 }
+
+/** Names as people order them: copy-2 before copy-10. */
+const natural = new Intl.Collator(undefined, { numeric: true });
 
 // The drafts of different projects are kept apart, so that their names wait for the project's.
 const drafts: Drafts = {

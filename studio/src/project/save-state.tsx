@@ -25,7 +25,7 @@ export function SaveState({ document, textAddress }: SaveStateProps) {
   const state = document.saved.value;
   const error = document.error.value;
   return (
-    <div class="project-state">
+    <>
       <div class="ui-row">
         <IconButton
           icon="undo"
@@ -70,6 +70,6 @@ export function SaveState({ document, textAddress }: SaveStateProps) {
           )}
         </p>
       )}
-    </div>
+    </>
   );
 }

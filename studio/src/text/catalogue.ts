@@ -1,7 +1,8 @@
 /** Shape of the texts: other languages have the keys of the English ones. */
 import type { en } from "./en";
+import type { views } from "./en/views";
 
-export type Catalogue = typeof en;
+export type Catalogue = typeof en & typeof views;
 export type Group = keyof Catalogue;
 
 /** A group of texts in another language: the same keys. */

@@ -1,4 +1,4 @@
-/** All texts of the studio: typed keys, English at once, other languages loaded when chosen. */
+/** All texts of the studio: typed keys, English of the first view at once, the rest loaded when it is needed. */
 import { computed, signal } from "@preact/signals";
 import type { Catalogue, Group, Translation } from "./catalogue";
 import { en } from "./en";
@@ -21,17 +21,23 @@ type Values<K extends Key> = [Braces<TextOf<K>>] extends [never]
 export const LANGUAGES: Record<Language, string> = { en: "English", tr: "Türkçe" };
 
 const chosen = signal<Language>("en");
-const catalogue = signal<Translation>(en);
+let english: Partial<Translation> = en;
+const catalogue = signal(english);
 
 /** The language shown. */
 export const language = computed(() => chosen.value);
 
 /** Shows another language; resolves when its texts are there. */
 export async function setLanguage(to: Language): Promise<void> {
-  const texts: Translation = to === "en" ? en : (await import("./tr")).tr;
-  catalogue.value = texts;
+  catalogue.value = to === "en" ? english : (await import("./tr")).tr;
   chosen.value = to;
   document.documentElement.lang = to;
+}
+
+/** Loads the texts of all views; the first one needs none of them. */
+export async function loadTexts(): Promise<void> {
+  english = { ...en, ...(await import("./en/views")).views };
+  if (chosen.peek() === "en") catalogue.value = english;
 }
 
 /**
@@ -49,13 +55,13 @@ export function textIfKnown(key: string, values?: Record<string, string | number
   return found === undefined ? undefined : fill(found, values);
 }
 
-function lookUp(texts: Translation, key: string): string | undefined {
+function lookUp(texts: Partial<Translation>, key: string): string | undefined {
   const at = key.indexOf(".");
   const group = texts[key.slice(0, at) as Group] as Record<string, string> | undefined;
   return group?.[key.slice(at + 1)];
 }
 
-function textOf(texts: Translation, key: string): string {
+function textOf(texts: Partial<Translation>, key: string): string {
   return lookUp(texts, key) ?? key;
 }
 
@@ -90,11 +96,18 @@ export function formatNumber(value: number, digits = 4): string {
   if (format === undefined) {
     format = new Intl.NumberFormat(chosen.value, {
       maximumSignificantDigits: 15,
-      notation: scientific ? "scientific" : "standard",
+      notation: scientific ? "engineering" : "standard",
     });
     formats.set(key, format);
   }
-  return format.format(rounded).replaceAll("-", "−");
+  const written = format.format(rounded).replaceAll("-", "−");
+  return scientific
+    ? written.replace(/E(.+)$/, (_, power: string) => `·10${[...power].map(raised).join("")}`)
+    : written;
+}
+
+function raised(sign: string): string {
+  return "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(sign)] ?? "⁻";
 }
 
 /** A time span in words: "2 h 5 min", "40 s". */

@@ -1,8 +1,9 @@
 import { readdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
-import { afterEach, describe, expect, it } from "vitest";
-import { formatNumber, formatSpan, setLanguage, t } from ".";
-import { en } from "./en";
+import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { formatNumber, formatSpan, loadTexts, setLanguage, t } from ".";
+import { en as first } from "./en";
+import { views } from "./en/views";
 import { tr } from "./tr";
 
 const SOURCES = join(import.meta.dirname, "..");
@@ -15,12 +16,14 @@ function filesBelow(path: string): string[] {
 const code = filesBelow(SOURCES)
   .filter((path) => /\.tsx?$/.test(path) && !/\.test\.tsx?$/.test(path) && !path.includes(join(SOURCES, "text")))
   .map((path) => ({ path, text: readFileSync(path, "utf8") }));
+const en = { ...first, ...views };
 const groups = Object.entries(en) as [keyof typeof en, Record<string, string>][];
 
 function braces(text: string): string[] {
   return [...new Set(text.match(/\{\w+\}/g) ?? [])].sort();
 }
 
+beforeAll(loadTexts);
 afterEach(() => setLanguage("en"));
 
 describe("every text", () => {
@@ -58,9 +61,9 @@ describe("every text", () => {
 
 describe("t", () => {
   it("fills in values, numbers as the language writes them", async () => {
-    expect(t("ui.checksFail", { failed: 2, count: 12345 })).toBe("2 of 12,345 checks fail");
+    expect(t("machine.sensitivityWork", { done: 2, all: 12345 })).toBe("2 of 12,345 parameters moved");
     await setLanguage("tr");
-    expect(t("ui.checksFail", { failed: 2, count: 12345 })).toBe("12.345 denetimden 2 tanesi sağlanmıyor");
+    expect(t("machine.sensitivityWork", { done: 2, all: 12345 })).toBe("12.345 parametreden 2 tanesi oynatıldı");
     expect(document.documentElement.lang).toBe("tr");
   });
 });
@@ -70,7 +73,7 @@ describe("numbers", () => {
     expect(formatNumber(59.7375)).toBe("59.74");
     expect(formatNumber(-0.5)).toBe("−0.5");
     expect(formatNumber(135000)).toBe("135,000");
-    expect(formatNumber(0.00002)).toBe("2E−5");
+    expect(formatNumber(0.00002)).toBe("20·10⁻⁶");
     expect(formatNumber(Number.NaN)).toBe("–");
     await setLanguage("tr");
     expect(formatNumber(59.7375)).toBe("59,74");

@@ -40,6 +40,7 @@ const PATHS = {
   right: "M9 6l6 6-6 6",
   reset: "M5 5v5h5M5.500 10a7.500 7.500 0 1 1-.800 5",
   keep: "M6 3h12v18l-6-5-6 5z",
+  terminal: "M3 5h18v14H3zM7 9l3 3-3 3M12 15h5",
   step: "M6 5v14l9-7zM18 5v14",
   expand: "M4 14v6h6M20 10V4h-6M4 20l7-7M20 4l-7 7",
   pencil: "M4 20l1-4L16 5l3 3L8 19zM14 7l3 3",

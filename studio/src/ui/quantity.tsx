@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../text";
 import { Field, type FieldProps } from "./field";
 import { Slider } from "./slider";
-import { type Bounds, formatQuantity, outside, quantityText, readQuantity } from "./units";
+import { type Bounds, formatQuantity, outside, quantityText, readQuantity, spaced } from "./units";
 
 interface QuantityProps extends Omit<FieldProps, "aside"> {
   /** The quantity as a text with its unit; "" where none is given. */
@@ -24,10 +24,10 @@ interface QuantityProps extends Omit<FieldProps, "aside"> {
 /** A quantity typed freely: "60mm", "6 cm", "0.06 m"; what cannot be read, or is out of bounds, is reported at once. */
 export function QuantityField(props: QuantityProps) {
   const { value, unit, bounds = {}, placeholder, optional = false, range, disabled = false, onChange } = props;
-  const [draft, setDraft] = useState(value);
+  const [draft, setDraft] = useState(spaced(value));
   const given = useRef(value);
   useEffect(() => {
-    if (value !== given.current) setDraft(value);
+    if (value !== given.current) setDraft(spaced(value));
     given.current = value;
   }, [value]);
   const own = problem(draft, unit, bounds, optional);
@@ -55,7 +55,7 @@ export function QuantityField(props: QuantityProps) {
             disabled={disabled}
             required={!optional}
             onInput={(event) => give(event.currentTarget.value)}
-            onBlur={() => own === undefined && setDraft(given.current)}
+            onBlur={() => own === undefined && setDraft(spaced(given.current))}
           />
         );
         if (range === undefined) return input;

@@ -1,4 +1,5 @@
 import { Field, type FieldProps } from "./field";
+import { Icon } from "./icons";
 import type { Choice } from "./segments";
 
 interface SelectProps<T extends string> extends Omit<FieldProps, "aside"> {
@@ -57,6 +58,23 @@ export function TextField({ value, placeholder, disabled = false, onChange, onCo
         />
       )}
     </Field>
+  );
+}
+
+/** Words that are searched for. */
+export function SearchField({ label, value, onChange }: Pick<TextProps, "label" | "value" | "onChange">) {
+  return (
+    <label class="ui-search">
+      <Icon name="search" />
+      <input
+        class="ui-input"
+        type="search"
+        aria-label={label}
+        placeholder={label}
+        value={value}
+        onInput={(event) => onChange(event.currentTarget.value)}
+      />
+    </label>
   );
 }
 

@@ -92,7 +92,7 @@ export function readQuantity(text: string, unit: string): Reading {
   }
   const si = Number(number) * (given === "" ? required.factor : own.factor) + 0;
   if (!(Math.abs(si) <= table.greatest)) return { error: failed, unit: "" };
-  return { si, text: given === "" && !plain ? `${number}${unit.replace(/^1\//, "/")}` : written };
+  return { si, text: given === "" && !plain ? `${number}${unit.replace(/^1\//, "/")}` : written.replaceAll(" ", "") };
 }
 
 /** Which bound a value [SI] is outside of; null where it is inside. Rounding by 1e-9 counts as inside. */
@@ -122,6 +122,11 @@ export function formatQuantity(si: number, unit: string, digits = 4): string {
   const printed = shownUnit(unit);
   const number = formatNumber(fromSi(si, unit), digits);
   return `${number}${/^[\p{L}]/u.test(printed) ? " " : ""}${printed}`;
+}
+
+/** A quantity of a file as a field shows it, its unit apart: "59.74 mm". */
+export function spaced(text: string): string {
+  return text.replace(/^([-+]?[\d.]+(?:e[-+]?\d+)?)(?=[\p{L}%])/iu, "$1 ");
 }
 
 /** A value [SI] as a text that the command line and files read: "59.74mm". */

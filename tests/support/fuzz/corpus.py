@@ -25,7 +25,7 @@ from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_text import programme_text_parts
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.cyclogram import find
-from ilmek.jobs.loom import knot_yarns, params_for, read_loom_order
+from ilmek.jobs.loom import params_for, read_loom_order
 from ilmek.jobs.loom_setup import CarpetPile, loom_setup
 from ilmek.jobs.order import read_order
 from ilmek.loom.explicit import CompiledProgramme
@@ -125,7 +125,7 @@ def make_corpus() -> Corpus:
         order = read_order(picture, size=SIZE, quality=QUALITY, colours=5)
         charted = make_charted(order)
         chart, made = charted.chart, design(params_for(read_loom_order(order), charted))
-        carpet = CarpetPile(chart, knot_yarns(charted))
+        carpet = CarpetPile(chart, charted.knot_yarns)
         by_two = make_programme(
             chart.knots, len(chart.yarns), 2, made.times, bobbins=made.bobbins, supply=carpet.supply(made.params)
         )

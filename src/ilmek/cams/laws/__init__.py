@@ -5,7 +5,6 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
@@ -55,7 +54,7 @@ FAMILIES = Registry(
 """The families of laws by name: how a law is built and which parameters it takes."""
 
 
-def law_of(name: str, parameters: Mapping[str, Any] = NONE) -> Law:
+def law_of(name: str, parameters: Mapping[str, object] = NONE) -> Law:
     """A motion law by name, with parameters.
 
     name        a key of `FAMILIES`

@@ -6,12 +6,14 @@ before the palette rules, which therefore see the whole carpet.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from ilmek.arrays import Bool, Pixels
+from ilmek.carpet.cells import CellKind, all_knots
+from ilmek.carpet.chart import Chart
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours
 from ilmek.carpet.fitted import fitted_design
@@ -25,6 +27,7 @@ from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
 from ilmek.carpet.recipe.repeat import repeated
 from ilmek.carpet.recipe.structure import Area, DesignStructure, MotifCopy
+from ilmek.carpet.shape import pile_kind
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import CarpetError
@@ -43,6 +46,7 @@ class Composition:
     yarns   areas in which the knots of a yarn's colour are that yarn, by its index in the list; later ones prevail
     drawn   areas of an exacter reading than that of the whole, to which none of its rules applies, and which knots
     structure  where its parts lie      notes  on the fit
+    piles   areas of parts with a pile of their own, which of their knots, and the pile; later ones prevail
     """
 
     design: Design
@@ -50,6 +54,16 @@ class Composition:
     yarns: tuple[tuple[Area, int], ...] = ()
     drawn: tuple[tuple[Area, Bool[np.ndarray, "rows columns"] | None], ...] = ()
     notes: tuple[str, ...] = ()
+    piles: tuple[tuple[Area, Bool[np.ndarray, "rows columns"], CellKind], ...] = ()
+
+    def piled(self, chart: Chart) -> Chart:
+        """The chart of the design with the piles of its parts."""
+        cells = all_knots(chart.rows, chart.columns) if chart.cells is None else chart.cells
+        for area, shown, pile in self.piles:
+            where = np.zeros(chart.knots.shape, dtype=bool)
+            where[area] = shown
+            cells = cells.woven(where & cells.tied, pile)
+        return replace(chart, cells=cells.merged()) if self.piles else chart
 
 
 @dataclass(slots=True)
@@ -65,6 +79,12 @@ class _Canvas:
     drawn: list[tuple[Area, str, Bool[np.ndarray, "rows columns"] | None]] = field(default_factory=list)
     designs: list[Design] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    piles: list[tuple[Area, Bool[np.ndarray, "rows columns"], CellKind]] = field(default_factory=list)
+
+    def raise_pile(self, pile: str, area: Area, shown: Bool[np.ndarray, "rows columns"]) -> None:
+        """Give the knots of an area that are shown a pile; "": leave it."""
+        if pile:
+            self.piles.append((area, shown, pile_kind(pile)))
 
     def colour(self, name: str, area: Area) -> tuple[int, int, int]:
         """The colour of a yarn, which the area has; a yarn that is named is listed."""
@@ -135,7 +155,7 @@ def compose(
     whole = _whole(canvas, recipe.file.name)
     kept = tuple((area, shown) for area, kind, shown in canvas.drawn if _KINDS.index(kind) < _KINDS.index(whole.kind))
     structure = DesignStructure(recipe, grid, layout, done, _tile_sides(recipe, pictures), tuple(motifs))
-    return Composition(whole, structure, tuple(canvas.yarns), kept, tuple(canvas.notes))
+    return Composition(whole, structure, tuple(canvas.yarns), kept, tuple(canvas.notes), tuple(canvas.piles))
 
 
 def _whole(canvas: _Canvas, file: str) -> Design:
@@ -156,6 +176,10 @@ def _draw_border(canvas: _Canvas, one: BorderLayout) -> None:
     rows, columns = canvas.colours.shape[:2]
     area = (slice(one.inset[0], rows - one.inset[0]), slice(one.inset[1], columns - one.inset[1]))
     out = canvas.colours[area]
+    ring = np.zeros(out.shape[:2], dtype=bool)
+    for part in edges(out.shape[0], out.shape[1], one.breadth):
+        ring[part] = True
+    canvas.raise_pile(border.pile, area, ring)
     if border.yarn:
         colour = canvas.colour(border.yarn, area)
         for part in edges(out.shape[0], out.shape[1], one.breadth):
@@ -264,6 +288,7 @@ def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> tuple[Mo
         area = (slice(top, top + height), slice(left, left + width))
         canvas.colours[area][shown[step]] = colours[step][shown[step]]
         canvas.mark(area, shown=shown[step])
+        canvas.raise_pile(motif.pile, area, shown[step])
         copies.append(MotifCopy(area, (down, right)))
     return tuple(copies)
 

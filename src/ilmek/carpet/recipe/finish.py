@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ilmek.arrays import Bool, FloatArray, Indices, Pixels
+from ilmek.carpet.bill import names_to_buy
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import recoded
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.nearest_colour import nearest

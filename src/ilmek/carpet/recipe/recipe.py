@@ -13,6 +13,7 @@ from typing import Any
 from ilmek.carpet.quality import shortest_quality
 from ilmek.carpet.recipe.anchor import CARPET, grid_text
 from ilmek.carpet.recipe.edits import Edit
+from ilmek.records import JsonObject
 
 ORDERS = ("straight", "brick", "half-drop", "mirrored")
 """straight: in rows and columns; brick: every second row is shifted by half a tile; half-drop: every second column is;
@@ -73,6 +74,7 @@ class Border:
     corner  picture of the upper left corner; default: the tile, reflected at the diagonal
     alternate  the tile is two motifs that alternate: a side begins and ends with the first, the corner is the second
     adjust  the motifs of a side are made a little longer until they fill it
+    pile    of its knots: a height, loop or both; "": as the carpet has it
     """
 
     width: Breadth | None = None
@@ -83,6 +85,7 @@ class Border:
     corner: Path | None = None
     alternate: bool = False
     adjust: bool = False
+    pile: str = ""
     where: str = ""
 
 
@@ -95,6 +98,7 @@ class Motif:
     mirror       further copies by reflection, of MIRRORS; "": none
     width, length  [knots]; default: its own pixels
     transparent  colour of its pixels that leave the field as it is; "": none
+    pile         of its knots, as of a border
     """
 
     picture: Path
@@ -103,6 +107,7 @@ class Motif:
     width: int | None = None
     length: int | None = None
     transparent: str = ""
+    pile: str = ""
     where: str = ""
 
 
@@ -152,12 +157,12 @@ class Recipe:
         """Whether anything but one whole picture makes the design."""
         return self.picture is None or bool(self.mirror or self.borders or self.motifs)
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> JsonObject:
         """The recipe as plain data; paths are relative to its folder."""
         return plain_data(self, lambda path: path.relative_to(self.file.parent).as_posix())
 
 
-def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
+def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> JsonObject:
     """The layout and the edits of a recipe with the keys of a file; what is left open is left out.
 
     named  a picture's path as it is written
@@ -166,7 +171,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
     def path(file: Path | None) -> str:
         return "" if file is None else named(file)
 
-    def given(**entries: Any) -> dict[str, Any]:
+    def given(**entries: object) -> JsonObject:
         return {key: value for key, value in entries.items() if value}
 
     data = given(picture=path(recipe.picture), plain=recipe.plain, mirror=recipe.mirror)
@@ -186,6 +191,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
                 corner=path(border.corner),
                 alternate=border.alternate,
                 adjust=border.adjust,
+                pile=border.pile,
             )
             for border in recipe.borders
         ]
@@ -198,6 +204,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
                 width=motif.width,
                 length=motif.length,
                 transparent=motif.transparent,
+                pile=motif.pile,
             )
             for motif in recipe.motifs
         ]
@@ -210,7 +217,7 @@ def _plain_edits(edits: Sequence[Edit]) -> list[Any]:
         return [edit.text for edit in edits]
     tables = []
     for anchor, lines in itertools.groupby(edits, lambda edit: edit.anchor):
-        keys: dict[str, Any] = {} if anchor.on == CARPET else {"on": anchor.name}
+        keys: JsonObject = {} if anchor.on == CARPET else {"on": anchor.name}
         keys |= {} if anchor.grid is None else {"grid": grid_text(anchor.grid)}
         keys |= {} if anchor.grid is None or anchor.quality is None else {"quality": shortest_quality(anchor.quality)}
         tables.append({**keys, "lines": [edit.text for edit in lines]})

@@ -19,6 +19,7 @@ from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption,
 
 from ilmek.drivers.opcua.certificate import Credentials
 from ilmek.errors import LoomError
+from ilmek.records import JsonObject
 
 TIMEOUT = 4.0
 """Time in which the PLC's server must answer [s]."""
@@ -68,7 +69,7 @@ class PlcVariables:
             server_certificate=None if server is None else CertProperties(server.public_bytes(Encoding.DER), "DER"),
         )
 
-    def read(self, names: Iterable[str]) -> dict[str, Any]:
+    def read(self, names: Iterable[str]) -> JsonObject:
         """Values of variables by their names. Raises PlcUnreachableError."""
         return {name: data.Value.Value for name, data in self._data(tuple(names)).items()}
 
@@ -83,7 +84,7 @@ class PlcVariables:
                 [ua.DataValue(ua.Variant(value, self._kinds[name])) for name, value in values.items()],
             )
 
-    def _data(self, names: tuple[str, ...]) -> dict[str, Any]:
+    def _data(self, names: tuple[str, ...]) -> JsonObject:
         with self._answers("does not answer"):
             found = self._client.read_attributes([self._client.get_node(self._node(name)) for name in names])
         for name, data in zip(names, found, strict=True):

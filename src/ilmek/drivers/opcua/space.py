@@ -300,7 +300,7 @@ class AddressSpace:
         identifier: ua.NodeId,
         name: ua.QualifiedName,
         *,
-        attributes: Any,
+        attributes: object,
         kind: ua.NodeId | None,
     ) -> None:
         classes = {

@@ -8,12 +8,13 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError, OutputError
-from ilmek.io.chart.bmp import write_chart_bmp
+from ilmek.io.chart.indexed import write_chart_bmp, write_chart_tiff
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS, write_chart_oxs
 from ilmek.io.chart.oxs_reading import begins_oxs, read_chart_oxs
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.png import begins_chart_png, read_chart_png, write_chart_png
 from ilmek.io.chart.printing import PLAIN, Printing
+from ilmek.io.chart.wif import write_wif
 from ilmek.io.regular_file import open_regular
 from ilmek.plugins import Registry
 from ilmek.progress import SILENT, Progress
@@ -116,6 +117,12 @@ FORMATS = Registry(
                 write_chart_bmp,
             ),
             ChartFormat(
+                "tiff",
+                "the knot chart as indexed TIFF, for carpet CAD programs",
+                "an indexed TIFF of one pixel a knot, for carpet CAD programs",
+                write_chart_tiff,
+            ),
+            ChartFormat(
                 "oxs",
                 "the knot chart for cross-stitch programs; weave and chart read it again",
                 "the open XML chart of cross-stitch programs",
@@ -124,6 +131,13 @@ FORMATS = Registry(
                 read_chart_oxs,
                 picture=False,
                 most=MOST_OXS_KNOTS,
+            ),
+            ChartFormat(
+                "wif",
+                "the ground weave for weaving programs and looms that they drive",
+                "the ground weave with its two wefts a row, for weaving programs",
+                write_wif,
+                picture=False,
             ),
             ChartFormat(
                 "pdf",

@@ -3,6 +3,7 @@
 from PIL import Image
 from reportlab.lib.utils import ImageReader
 
+from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.legend import colours_in_words, thousands
 from ilmek.io.chart.printing import PrintCanvas, size_of, title_of
@@ -20,7 +21,7 @@ def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout) -> None:
     canvas.bookmarkPage("overview")
     canvas.addOutlineEntry(canvas.numerals(Sentence("chart.whole")), "overview", 0)
     canvas.setFont(STRONG, 16)
-    canvas.write(_LEFT, _TOP, Sentence("chart.title", name=title_of(chart)))
+    canvas.write(_LEFT, _TOP, Sentence("chart.title", name=title_of(chart, canvas.printing)))
     canvas.setFont(TEXT, 9)
     canvas.setFillColorRGB(*_GREY)
     for line, text in enumerate(_facts(chart, plan)):
@@ -58,7 +59,10 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
 
 def _thumbnail(chart: Chart) -> Image.Image:
     """The chart as a picture of at most 1200 pixels per side."""
-    picture = Image.fromarray(chart.colour_table[chart.knots])
+    colours = chart.colour_table[chart.knots]
+    if chart.cells is not None:
+        colours[chart.cells.are(OUTSIDE)] = 255
+    picture = Image.fromarray(colours)
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 

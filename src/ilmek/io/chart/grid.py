@@ -1,31 +1,41 @@
 """One sheet of a knot chart: cells, symbols, lines, numbers, marks."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import Indices
+from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.overlay_marks import draw_marks
-from ilmek.io.chart.printing import PrintCanvas
+from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
-from ilmek.sentences import Sentence
+from ilmek.sentences import Name, Sentence
 
 _LEFT, _TOP = 54.0, 800.0
 """Left edge of the cells and baseline of the title [pt]."""
+
+_HATCH = 6.0
+"""Distance of the lines in what is cut away, along an edge [pt]."""
+
 _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 
 
-def draw_sheet(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
-    """Draw a sheet on a page of its own."""
+def draw_sheet(
+    canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks, *, printing: Printing
+) -> None:
+    """Draw a sheet on a page of its own, with the marks that are printed."""
     canvas.bookmarkPage(f"sheet-{sheet.number}")
     entry = Sentence("chart.sheet", number=sheet.number, title=sheet.title)
     canvas.addOutlineEntry(canvas.numerals(entry), f"sheet-{sheet.number}", 1)
     canvas.saveState()
     canvas.translate(_LEFT, _TOP - 42.0 - (sheet.shown_high - sheet.low) * plan.cell_height)
     draw_cells(canvas, chart, plan, sheet, inks)
+    if printing.marks is not None:
+        printing.marks(canvas, chart.rows, plan, sheet)
     canvas.restoreState()
     _write_title(canvas, plan, sheet)
     canvas.showPage()
@@ -37,6 +47,12 @@ def draw_cells(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: Char
     cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
     _fill_cells(canvas, cells, plan, inks)
     _write_symbols(canvas, cells, plan, inks)
+    if chart.cells is not None:
+        outside = chart.cells.are(OUTSIDE)[rows, sheet.left : sheet.shown_right][::-1].astype(np.uint8)
+        wide, high = plan.cell_width, plan.cell_height
+        boxes = [(first * wide, row * high, count * wide, high) for row, first, count in runs(outside).get(1, ())]
+        if boxes:
+            hatch(canvas, boxes)
     draw_marks(canvas, chart, plan, sheet, inks)
     _shade_overlap(canvas, plan, sheet)
     _draw_lines(canvas, plan, sheet)
@@ -72,6 +88,21 @@ def _fill_cells(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks: In
         canvas.setFillColorRGB(*inks.fills[yarn])
         # Operators of PDF (ISO 32000-1, 8.5): reportlab writes a rectangle 15 times slower, and there are thousands.
         canvas._code.append(" ".join([f"{first} {row} {count} 1 re" for row, first, count in pieces]) + " f")
+    canvas.restoreState()
+
+
+def hatch(canvas: PrintCanvas, boxes: Sequence[tuple[float, float, float, float]]) -> None:
+    """Boxes of x, y, width and height [pt] in white with thin slanting lines: what is cut away."""
+    left, low = (min(box[side] for box in boxes) for side in (0, 1))
+    right, high = (max(box[side] + box[side + 2] for box in boxes) for side in (0, 1))
+    path = " ".join(f"{x:.3f} {y:.3f} {width:.3f} {height:.3f} re" for x, y, width, height in boxes)
+    canvas.saveState()
+    canvas.setFillGray(1.0)
+    canvas._code.append(f"{path} f {path} W n")
+    canvas.setStrokeGray(0.6)
+    canvas.setLineWidth(0.4)
+    rise = high - low
+    canvas.lines([(at - rise, low, at, high) for at in np.arange(left, right + rise, _HATCH).tolist()])
     canvas.restoreState()
 
 
@@ -181,6 +212,7 @@ def _write_title(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> N
     canvas.setFont(TEXT, 8)
     canvas.setFillColorRGB(*_GREY)
     canvas.write_to(541.0, _TOP, Sentence("chart.sheet-of", number=sheet.number, count=plan.count))
+    canvas.write_to(541.0, 26.0, Name(canvas.printing.name))
     x = _LEFT
     for side, number in sheet.neighbours.items():
         if number:

@@ -1,16 +1,18 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
+from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.mounting import TENS, Mounting
+from ilmek.io.chart.grid import hatch
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
+from ilmek.records import JsonObject
 from ilmek.sentences import Sentence
 from ilmek.units import cm, format_number, g, mm
 
@@ -56,7 +58,9 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
-    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
+    title, *notes = printing.legend or (
+        Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total)),
+    )
     y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))
@@ -68,6 +72,17 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         _swatch(canvas, inks, NO_KNOT, _LEFT, y)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("rows.text-plain", sign=NO_SIGN))
+    if chart.cells is not None and chart.cells.number(OUTSIDE):
+        y = _room(canvas, y, _LINE, bool(needs))
+        hatch(canvas, [(canvas.side(_LEFT, 24.0), y - 4.0, 24.0, 14.0)])
+        canvas.setFillGray(0.1)
+        canvas.setFont(TEXT, 9)
+        canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
+    for note in notes:
+        y = _room(canvas, y, _LINE, bool(needs))
+        canvas.setFont(TEXT, 9)
+        canvas.setFillGray(0.1)
+        canvas.write(_LEFT, y, note)
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
@@ -236,7 +251,7 @@ def _cm(length: float) -> str:
     return format_number(length / cm)
 
 
-def _middle(what: str, after: float) -> dict[str, Any]:
+def _middle(what: str, after: float) -> JsonObject:
     """The sentence of where a middle lies, and its numbers: between two of an even number, in one of an odd number."""
     if after == int(after):
         return {"text": f"between-{what}s", "number": round(after), "next": round(after) + 1}

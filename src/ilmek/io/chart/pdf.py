@@ -28,11 +28,11 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pr
     """
     plan = chart_cut(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    with printed_file(path, Sentence("chart.title", name=title_of(chart)), printing) as canvas:
+    with printed_file(path, Sentence("chart.title", name=title_of(chart, printing)), printing) as canvas:
         draw_overview(canvas, chart, plan)
         draw_legend(canvas, chart, inks, printing)
         for sheet in plan.sheets():
-            draw_sheet(canvas, chart, plan, sheet, inks)
+            draw_sheet(canvas, chart, plan, sheet, inks, printing=printing)
             progress(sheet.number / plan.count)
 
 

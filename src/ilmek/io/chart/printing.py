@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
@@ -17,9 +17,21 @@ from ilmek.carpet.mounting import Mounting
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.io.chart.lettering import draw_line, is_plain, line_width
+from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import STRONG, register_fonts
 from ilmek.records import record
-from ilmek.sentences import DEFAULT, LATIN, WEAVERS, Sentence, in_language, language_spoken, noun, translated
+from ilmek.sentences import (
+    DEFAULT,
+    LATIN,
+    WEAVERS,
+    Name,
+    Sentence,
+    changed,
+    in_language,
+    language_spoken,
+    noun,
+    translated,
+)
 from ilmek.units import cm, format_number
 
 DIGITS = {"latin": LATIN} | {code: row.digits for code, row in WEAVERS.items() if row.digits != LATIN}
@@ -29,6 +41,10 @@ _WORDS, _CODE = re.compile(r"( +)"), re.compile(r"[#A-Za-z]")
 """Blanks between words, and the begin of a code."""
 
 _BETWEEN = re.compile(r"(?<=[۰-۹٠-٩])[.\u202f](?=[۰-۹٠-٩])")
+_KEPT = str.maketrans(LATIN, "".join(chr(0xE000 + digit) for digit in range(10)))
+_SHOWN = {code: chr(digit) for digit, code in _KEPT.items()}
+"""Digits of a name within a sentence, for private use while those around them are changed."""
+
 _SIGNS = {".": "٫", "\u202f": "٬"}
 """Decimal point and mark of thousands between Arabic digits."""
 
@@ -39,12 +55,18 @@ class Printing:
 
     digits    of DIGITS; "": those of the language       language  of WEAVERS
     bill      the yarn to buy      mounting  of the warps; None: neither is printed
+    name      of the carpet, colourway included; "": it has none
+    marks     drawn on the cells of a sheet: with canvas, rows of the chart, layout and sheet; None: none
+    legend    title of the legend and lines below its yarns; (): those of knots
     """
 
     digits: str = ""
     bill: YarnBill | None = None
     mounting: Mounting | None = None
     language: str = DEFAULT
+    name: str = ""
+    marks: Callable[[Any, int, SheetLayout, ChartSheet], None] | None = None
+    legend: tuple[Sentence, ...] = ()
 
 
 PLAIN = Printing()
@@ -56,19 +78,25 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
     are.
 
     unit      points in a unit of length of the file
+    printing  what the file has besides a chart
     leftward  whether lines begin at the right side of the page
     """
 
     def __init__(self, path: Path, digits: str = "", **more: object) -> None:
         super().__init__(str(path), pageCompression=1, invariant=1, **more)
         language = language_spoken()
-        self.unit, self.leftward = 1, language.leftward
+        self.unit, self.leftward, self.printing = 1, language.leftward, PLAIN
         self._digits = str.maketrans(LATIN, DIGITS[digits] if digits else language.digits)
 
     def numerals(self, text: str) -> str:
-        """A text in the language and with the digits of this canvas; a code, like N-204 or #9e2b25, keeps its own."""
+        """A text in the language and with the digits of this canvas; a code, like N-204 or #9e2b25, and a name keep
+        their own.
+        """
+        if isinstance(text, Name):
+            return text
         if isinstance(text, Sentence):
-            said = translated(text).translate(self._digits)
+            kept = changed(text, lambda value: value.translate(_KEPT) if isinstance(value, Name) else value)
+            said = translated(kept).translate(self._digits).translate(_SHOWN)
         else:
             said = "".join(part if _CODE.match(part) else part.translate(self._digits) for part in _WORDS.split(text))
         return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said)
@@ -130,9 +158,11 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         super().drawCentredString(x, y, sign)
 
 
-def title_of(chart: Chart) -> str:
-    """The name of a chart's size, or its columns and rows."""
-    return noun(chart.size.name) or Sentence("chart.grid", columns=chart.columns, rows=chart.rows)
+def title_of(chart: Chart, printing: Printing = PLAIN) -> str:
+    """The name of a chart's carpet, or of its size, or its columns and rows."""
+    return (
+        Name(printing.name) or noun(chart.size.name) or Sentence("chart.grid", columns=chart.columns, rows=chart.rows)
+    )
 
 
 def size_of(size: CarpetSize) -> str:
@@ -163,6 +193,7 @@ def printed_file(path: Path, title: str, printing: Printing | None = None, **mor
         with nullcontext() if printing is None else in_language(printing.language):
             spoken = {} if printing is None else {"digits": printing.digits, "lang": printing.language}
             canvas = PrintCanvas(path, **{"pagesize": A4, **spoken, **more})
+            canvas.printing = printing or PLAIN
             canvas.setTitle(canvas.numerals(title))
             canvas.setCreator("ilmek")
             if canvas.leftward:

@@ -81,7 +81,7 @@ def write_colours_pdf(
     halves = Sentence("rows.half-cells") if chart.overlay.halves else ""
     juftis = Sentence("rows.jufti-cells") if chart.overlay.juftis else ""
     about = Sentence("rows.cells", marks=Sentence("rows.marks", halves=halves, juftis=juftis))
-    with printed_file(path, Sentence("rows.title", name=title_of(chart)), printing) as canvas:
+    with printed_file(path, Sentence("rows.title", name=title_of(chart, printing)), printing) as canvas:
         draw_legend(canvas, chart, inks, printing)
         for number, lines in enumerate(colour_pages(chart, direction), start=1):
             canvas.setFillGray(0.1)
@@ -89,7 +89,7 @@ def write_colours_pdf(
             canvas.write(_LEFT, _TOP, Sentence("rows.colours"))
             canvas.setFont(TEXT, 7)
             canvas.setFillColorRGB(*_GREY)
-            page = Sentence("rows.page", name=title_of(chart), page=number, pages=pages)
+            page = Sentence("rows.page", name=title_of(chart, printing), page=number, pages=pages)
             canvas.write_to(A4[0] - _LEFT, _TOP, page)
             canvas.write(_LEFT, _TOP - 12.0, about)
             for line, text in enumerate(lines):

@@ -39,7 +39,7 @@ def write_rows_pdf(
     """
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    with printed_file(path, Sentence("rows.title", name=title_of(chart)), printing) as canvas:
+    with printed_file(path, Sentence("rows.title", name=title_of(chart, printing)), printing) as canvas:
         draw_legend(canvas, chart, inks, printing)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
@@ -48,7 +48,7 @@ def write_rows_pdf(
             page.append(strip)
             if len(page) == plan.lines or (strip.number == chart.rows and strip.stop == chart.columns):
                 number += 1
-                _draw_page(setter, page, plan, (number, title_of(chart), direction, marks), inks)
+                _draw_page(setter, page, plan, (number, title_of(chart, printing), direction, marks), inks)
                 page = []
                 progress(number / plan.count)
 

@@ -21,11 +21,11 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
-from ilmek.io.chart.printing import quality_of, size_of
+from ilmek.io.chart.printing import PLAIN, Printing, quality_of, size_of
 from ilmek.io.chart.symbols import NO_SIGN, signs_of_codes, symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
-from ilmek.sentences import DEFAULT, Sentence, in_language, noun, translated
+from ilmek.sentences import Sentence, in_language, noun, translated
 
 MAGIC = "ilmek-rows 1"
 """First line: name and version of the format."""
@@ -49,22 +49,22 @@ def write_rows_text(
     direction: str = "both",
     progress: Progress = SILENT,
     *,
-    language: str = DEFAULT,
+    printing: Printing = PLAIN,
 ) -> None:
-    """Write the rows of a chart to `path`.
+    """Write the rows of a chart to `path`, with comments and names of yarns in the language of the printing.
 
-    split  runs or colours      direction  of DIRECTIONS      language  of the comments and of the yarns' names
+    split  runs or colours      direction  of DIRECTIONS
     """
     with path.open("wb") as file:
-        with in_language(language):
-            file.write(header(chart, split, direction).encode("utf-8"))
+        with in_language(printing.language):
+            file.write(header(chart, split, direction, printing.name).encode("utf-8"))
         for done, part in row_bands(chart, split, direction):
             file.write(part)
             progress(done)
 
 
-def header(chart: Chart, split: str, direction: str) -> str:
-    """The lines before the rows."""
+def header(chart: Chart, split: str, direction: str, name: str = "") -> str:
+    """The lines before the rows; name: of the carpet."""
     size, quality, tied = chart.size, chart.quality, chart.tied
     signs = symbols(chart.yarns)
     about = Sentence("rows.text", size=size_of(size), quality=quality_of(quality), knot=noun(chart.knot))
@@ -73,6 +73,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
         comments = (*comments, Sentence("rows.text-plain", sign=NO_SIGN))
     lines = [
         MAGIC,
+        *((f"# {' '.join(printable(name).split())}",) if name else ()),
         *(f"# {translated(comment)}" for comment in comments),
         f"size {size.width!r} {size.length!r}",
         f"quality {quality.across!r} {quality.along!r}",

@@ -70,7 +70,10 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pri
     """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    page, title = (sheet.width / sheet.unit, sheet.height / sheet.unit), Sentence("chart.title", name=title_of(chart))
+    page, title = (
+        (sheet.width / sheet.unit, sheet.height / sheet.unit),
+        Sentence("chart.title", name=title_of(chart, printing)),
+    )
     with printed_file(path, title, printing, pagesize=page, pdfVersion=(1, 6)) as canvas:
         canvas.unit = sheet.unit
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
@@ -98,7 +101,7 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pri
 def _write_head(canvas: PrintCanvas, chart: Chart, sheet: WallSheet) -> None:
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 16)
-    canvas.write(_SIDE, sheet.height - 34.0, Sentence("chart.title", name=title_of(chart)))
+    canvas.write(_SIDE, sheet.height - 34.0, Sentence("chart.title", name=title_of(chart, canvas.printing)))
     canvas.setFont(TEXT, 9)
     width, length = (format_number(side * 100, 4) for side in sheet.lengths)
     carpet = {"size": size_of(chart.size), "quality": quality_of(chart.quality), "knot": noun(chart.knot)}

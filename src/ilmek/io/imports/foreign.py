@@ -1,13 +1,14 @@
 """Numbers and elements of files of other programs; what each reader returns."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError, shortened
+from ilmek.records import JsonObject
 
 GREATEST = 1e9
 """Greatest magnitude of a number."""
@@ -16,7 +17,7 @@ GREATEST = 1e9
 class Foreign(NamedTuple):
     """The data of a mechanism file, in SI, and what of the other file is not in it."""
 
-    data: dict[str, Any]
+    data: JsonObject
     left_out: tuple[str, ...]
 
 

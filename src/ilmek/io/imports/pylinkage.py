@@ -7,15 +7,15 @@ where the file has them.
 
 import cmath
 from dataclasses import dataclass, field
-from typing import Any
 
 from ilmek.errors import MechanismError, shortened
 from ilmek.io.imports.foreign import Foreign, number
 from ilmek.io.mechanism.points import third_corner
 from ilmek.linkage.model import GROUND
+from ilmek.records import JsonObject
 from ilmek.units import mm
 
-Entry = dict[str, Any]
+Entry = JsonObject
 
 
 def pylinkage_data(data: Entry) -> Foreign:

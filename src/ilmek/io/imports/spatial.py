@@ -13,6 +13,7 @@ from ilmek.arrays import FloatArray
 from ilmek.errors import MechanismError
 from ilmek.io.imports.foreign import Foreign
 from ilmek.linkage.model import GROUND
+from ilmek.records import JsonObject
 from ilmek.units import turn
 
 PARALLEL = 1e-6
@@ -61,8 +62,8 @@ class SpatialTree(NamedTuple):
 def planar(tree: SpatialTree) -> Foreign:
     """The data of a mechanism file. Raises MechanismError for a mechanism that does not move in one plane."""
     right, up, normal = _plane(tree.joints)
-    points: dict[str, dict[str, Any]] = {GROUND: {}}
-    joints: dict[str, dict[str, Any]] = {}
+    points: dict[str, JsonObject] = {GROUND: {}}
+    joints: dict[str, JsonObject] = {}
     left_out = list(tree.left_out)
 
     def flat(at: FloatArray) -> list[float]:
@@ -90,7 +91,7 @@ def planar(tree: SpatialTree) -> Foreign:
         name: {"points": own, **_mass(tree.masses.get(name, ()), flat, normal, fixed=name == GROUND)}
         for name, own in points.items()
     }
-    data: dict[str, Any] = {"name": tree.name, "units": "SI", "confirm": ["lengths"], "bodies": bodies}
+    data: JsonObject = {"name": tree.name, "units": "SI", "confirm": ["lengths"], "bodies": bodies}
     gravity = flat(tree.gravity)
     if any(gravity) and any("mass" in body for body in bodies.values()):
         data["gravity"] = gravity
@@ -113,7 +114,7 @@ def _plane(joints: Sequence[SpatialJoint]) -> tuple[FloatArray, FloatArray, Floa
     return side * right, up, side * normal
 
 
-def _mass(parts: Sequence[SpatialMass], flat: Any, normal: FloatArray, *, fixed: bool) -> dict[str, Any]:
+def _mass(parts: Sequence[SpatialMass], flat: Any, normal: FloatArray, *, fixed: bool) -> JsonObject:
     """Mass, centre and moment about the normal of all parts of a body together."""
     mass = sum(part.mass for part in parts)
     if fixed or not mass > 0:

@@ -1,7 +1,6 @@
 """Springs and dampers of a mechanism file, between points of two bodies or torsional."""
 
 from dataclasses import replace
-from typing import Any
 
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
@@ -56,7 +55,7 @@ def _check_apart(first: str, second: str) -> None:
 
 def spring_data(spring: Spring | TorsionSpring) -> JsonObject:
     """The table of a spring or damper."""
-    ends: dict[str, Any]
+    ends: JsonObject
     if isinstance(spring, Spring):
         ends = {"between": [list(end) for end in spring.ends]}
     else:

@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ilmek.dynamics.friction import Friction
-from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, SpeedStudy, StopEvent
+from ilmek.dynamics.motor_drive import MotorDrive
+from ilmek.dynamics.own_machine import ForwardTask, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
 from ilmek.io.declared import ChoiceEntry, FlagEntry, ListEntry, TableEntry, WholeEntry, keys, names, quantity, variant
 from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, unknown, value_of
@@ -18,6 +19,7 @@ MOST_SPEEDS_RATIO = 1e4
 """Greatest ratio of the speeds of a study."""
 
 _SLIP = quantity("1", "default: 5 %", above=0.0)
+_SHARP = FlagEntry("line and limit meet in a corner; default: false, rounded")
 _DIRECTIONS = {"up": 1, "down": -1, "both": 0}
 
 _MOTOR = variant(
@@ -26,6 +28,7 @@ _MOTOR = variant(
         {
             "speed": quantity("rad/s", "without load; default: constant torque"),
             "slip": _SLIP,
+            "sharp": _SHARP,
             "inertia": quantity("kg*m^2", "of rotor and flywheel at the input; default: 0", least=0.0),
         },
     ),
@@ -34,6 +37,7 @@ _MOTOR = variant(
         {
             "speed": quantity("m/s", "without load; default: constant force"),
             "slip": _SLIP,
+            "sharp": _SHARP,
             "inertia": quantity("kg", "at the input; default: 0", least=0.0),
         },
     ),

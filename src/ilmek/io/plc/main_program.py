@@ -1,11 +1,11 @@
 """The program that a task runs: the loom's block, its signals at their addresses, the host's values as variables."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from ilmek.io.plc.io_list import HOST, IoRow
 from ilmek.io.plc.sequence_logic import BLOCK
 from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable
+from ilmek.records import JsonObject
 
 MAIN = "Main"
 """Name of the program."""
@@ -20,13 +20,13 @@ def element_name(element: str) -> str:
     return element.replace("[", "").replace("]", "") if "[" in element else f"{element}Signal"
 
 
-def signal_values(values: Mapping[str, Any]) -> dict[str, Any]:
+def signal_values(values: Mapping[str, object]) -> JsonObject:
     """Values of the block's variables as those of the program: one for each signal with an address.
 
     >>> signal_values({"TieDone": [True, False], "EndDone": True, "EndAnswer": 2})
     {'TieDone0': True, 'TieDone1': False, 'EndDoneSignal': True, 'EndAnswer': 2}
     """
-    signals: dict[str, Any] = {}
+    signals: JsonObject = {}
     for name, value in values.items():
         if name in HOST:
             signals[name] = value

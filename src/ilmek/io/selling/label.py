@@ -50,12 +50,14 @@ def write_label(path: Path, name: str, facts: Iterable[tuple[str, str]], code: s
         canvas.setFont(STRONG, 9)
         canvas.setFillGray(0.1)
         canvas.write(6 * mm, 50 * mm, name)
-        for line, (heading, text) in enumerate(facts):
+        lines = list(facts)
+        step = min(4.6, 34.0 / len(lines))
+        for line, (heading, text) in enumerate(lines):
             canvas.setFont(TEXT, 7)
             canvas.setFillGray(0.42)
-            canvas.write(6 * mm, (43.5 - 4.6 * line) * mm, heading)
+            canvas.write(6 * mm, (43.5 - step * line) * mm, heading)
             canvas.setFillGray(0.1)
-            canvas.write(20 * mm, (43.5 - 4.6 * line) * mm, text)
+            canvas.write(20 * mm, (43.5 - step * line) * mm, text)
         draw_code(canvas, code, canvas.side(_SIZE[0] - _CODE - 6 * mm, _CODE), 9 * mm, _CODE)
         canvas.setFont(TEXT, 4.6)
         canvas.setFillGray(0.42)

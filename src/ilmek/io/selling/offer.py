@@ -6,6 +6,7 @@ from PIL import Image
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.construction import CarpetConstruction
 from ilmek.carpet.price_rules import PriceRules, QuotedPrice
 from ilmek.carpet.strike_off import SampleWindow
 from ilmek.records import record
@@ -42,7 +43,7 @@ class OfferedCarpet:
     design: str
     chart: Chart
     bill: YarnBill
-    pile_height: float
+    made: CarpetConstruction
     costs: tuple[tuple[Sentence, Decimal], ...]
     price: QuotedPrice
     delivery: str

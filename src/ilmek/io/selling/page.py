@@ -7,9 +7,10 @@ from PIL import Image
 from reportlab.lib.pagesizes import A4
 from reportlab.lib.utils import ImageReader
 
+from ilmek.io.chart.lettering import two_lines
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.symbols import STRONG, TEXT
-from ilmek.sentences import Sentence
+from ilmek.sentences import Name, Sentence
 
 WIDTH, HEIGHT = A4
 LEFT, TOP, LOW = 48.0, HEIGHT - 64.0, 62.0
@@ -83,8 +84,15 @@ class OrderPage:
         for name, value in facts:
             self.room(14.0)
             self.write(x, self.y, name, 9, grey=True)
-            self.write(x + beside, self.y, value, 9)
-            self.y -= 14.0
+            self.paragraph(value, x + beside, 9)
+
+    def paragraph(self, text: str, x: float, size: float, *, grey: bool = False) -> None:
+        """A text in as many lines as it takes between x and the margin where lines end."""
+        rest = self.canvas.numerals(text)
+        while rest:
+            line, rest = two_lines(rest, size, LEFT + ROOM - x)
+            self.write(x, self.y, Name(line), size, grey=grey)
+            self.y -= size + 5.0
 
     def table(self, columns: Sequence[PageColumn], rows: Iterable[Sequence[str]], *, sums: int = 0) -> None:
         """A table, whose heads are repeated on each page; sums: number of last rows that are sums."""

@@ -3,12 +3,14 @@
 from decimal import Decimal
 from pathlib import Path
 
+from ilmek.carpet.construction import CarpetConstruction
+from ilmek.io.chart.legend import thousands
 from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file, quality_of, size_of
 from ilmek.io.selling.offer import Offer, OfferedCarpet
-from ilmek.io.selling.page import LEFT, LOW, ROOM, OrderPage, PageColumn
-from ilmek.sentences import Sentence, noun
-from ilmek.units import format_number, mm
+from ilmek.io.selling.page import LEFT, ROOM, OrderPage, PageColumn
+from ilmek.sentences import Name, Sentence, noun
+from ilmek.units import cm, format_number, mm
 
 _LINES = (
     PageColumn(Sentence("order.carpet"), 0.0),
@@ -55,7 +57,7 @@ def _prices(page: OrderPage, offer: Offer) -> None:
     page.heading(Sentence("order.prices"))
     rows = [
         (
-            cut_line(carpet.name, 8.5, 205.0),
+            Name(cut_line(carpet.name, 8.5, 205.0)),
             str(carpet.price.quantity),
             money(carpet.price.unit),
             percent(carpet.price.discount) if carpet.price.discount else "–",
@@ -108,7 +110,7 @@ def _side_by_side(page: OrderPage, group: list[OfferedCarpet]) -> None:
         for number, carpet in enumerate(row):
             x = LEFT + number * (width + 12.0)
             page.picture(carpet.shown.whole, x, top - high, width, high)
-            page.write(x, top - high - 14.0, cut_line(carpet.name, 8.0, width), 8.0, strong=True)
+            page.write(x, top - high - 14.0, Name(cut_line(carpet.name, 8.0, width)), 8.0, strong=True)
             for line, index in enumerate(carpet.chart.used):
                 yarn, y = carpet.chart.yarns[index], top - high - 29.0 - 13.0 * line
                 page.swatch(x, y - 1.5, yarn.srgb)
@@ -117,23 +119,49 @@ def _side_by_side(page: OrderPage, group: list[OfferedCarpet]) -> None:
 
 
 def carpet_facts(carpet: OfferedCarpet) -> list[tuple[str, str]]:
-    """Size, quality, knots, pile, mass and colours of a carpet."""
+    """Size, quality, knots, construction, mass and colours of a carpet."""
     chart, bill = carpet.chart, carpet.bill
-    knots = Sentence("order.knots-text", knots=f"{bill.knots:,}".replace(",", "\u202f"), knot=noun(chart.knot))
+    knots = Sentence("order.knots-text", knots=thousands(bill.knots), knot=noun(chart.knot))
     return [
         (Sentence("order.size"), size_of(chart.size)),
         (Sentence("order.quality"), quality_of(chart.quality)),
         (Sentence("order.knots"), knots),
-        (Sentence("order.pile"), Sentence("order.pile-text", height=format_number(round(carpet.pile_height / mm, 2)))),
+        *construction_facts(carpet.made),
         (Sentence("order.mass"), Sentence("order.mass-text", mass=f"{bill.mass_per_area * bill.area:.2f}")),
         (Sentence("order.colours"), str(len(chart.used))),
     ]
 
 
+def outline_facts(made: CarpetConstruction) -> list[tuple[str, str]]:
+    """Shape and kilim ends of a carpet in words."""
+    shape = (Sentence("order.shape"), Sentence(f"order.shape-{made.shape}"))
+    lower, upper = (format_number(round(end / cm, 1)) for end in made.ends)
+    ends = (Sentence("order.ends"), Sentence("order.ends-text", lower=lower, upper=upper))
+    return [shape, ends] if any(made.ends) else [shape]
+
+
+def construction_facts(made: CarpetConstruction) -> list[tuple[str, str]]:
+    """Outline, edge, flat weave and piles of a carpet in words."""
+    facts = outline_facts(made)
+    if made.edge:
+        sides = {"length": f"{made.edge:.2f}", "width": format_number(made.binding_width / mm)}
+        yarn = noun(made.binding_yarn)
+        facts += [
+            (Sentence("order.binding"), Sentence(f"order.binding-{made.binding or 'none'}", yarn=yarn, **sides)),
+        ]
+    if made.flat:
+        facts += [(Sentence("order.flat"), Sentence("order.flat-area", area=f"{made.flat:.3f}"))]
+    for pile in made.piles:
+        key = "order.pile-loop" if pile.loop else "order.pile-cut"
+        height = format_number(round(pile.height / mm, 2))
+        facts += [(Sentence("order.pile"), Sentence(key, height=height, knots=thousands(pile.knots)))]
+    return facts
+
+
 def _in_room(page: OrderPage, offer: Offer, carpet: OfferedCarpet) -> None:
     page.begin()
     page.heading(carpet.name, 14.0)
-    width, height = page.picture(carpet.shown.room, LEFT, page.y - ROOM * 2 / 3, ROOM, ROOM * 2 / 3)
+    _, height = page.picture(carpet.shown.room, LEFT, page.y - ROOM * 2 / 3, ROOM, ROOM * 2 / 3)
     page.y -= height + 18.0
     page.facts(
         [
@@ -143,5 +171,4 @@ def _in_room(page: OrderPage, offer: Offer, carpet: OfferedCarpet) -> None:
         ]
     )
     page.y -= 4.0
-    page.write(LEFT, max(page.y, LOW), Sentence("order.room-note"), 7.5, grey=True)
-    del width
+    page.paragraph(Sentence("order.room-note"), LEFT, 7.5, grey=True)

@@ -4,17 +4,19 @@ from decimal import Decimal
 from pathlib import Path
 
 from ilmek.carpet.price_rules import WagePayment, WageRules
+from ilmek.io.chart.legend import thousands
 from ilmek.io.chart.printing import printed_file
 from ilmek.io.selling.page import ROOM, OrderPage, PageColumn
 from ilmek.io.selling.quotation import money, percent
 from ilmek.records import record
 from ilmek.report.paper import BOX
-from ilmek.sentences import Sentence
+from ilmek.sentences import Name, Sentence
 
 _PAYMENTS = (
     PageColumn(BOX, 0.0),
-    PageColumn(Sentence("order.after-row"), 120.0, end=True),
-    PageColumn(Sentence("order.knots"), 200.0, end=True),
+    PageColumn(Sentence("order.after-row"), 90.0, end=True),
+    PageColumn(Sentence("order.knots"), 150.0, end=True),
+    PageColumn(Sentence("order.flat"), 220.0, end=True),
     PageColumn(Sentence("order.earned"), 290.0, end=True),
     PageColumn(Sentence("order.deducted"), 380.0, end=True),
     PageColumn(Sentence("order.paid"), ROOM, end=True),
@@ -28,7 +30,6 @@ class WageSheet:
     rules: WageRules
     currency: str
     rows: int
-    knots: int
     colours: int
     payments: tuple[WagePayment, ...]
     done: int = 0
@@ -37,6 +38,16 @@ class WageSheet:
     def wage(self) -> Decimal:
         """Of the whole carpet."""
         return sum((one.earned for one in self.payments), Decimal(0))
+
+    @property
+    def knots(self) -> int:
+        """Of the whole carpet."""
+        return sum(one.knots for one in self.payments)
+
+    @property
+    def flat(self) -> int:
+        """Cells of flat weave of the whole carpet."""
+        return sum(one.flat for one in self.payments)
 
     @property
     def advance(self) -> Decimal:
@@ -56,14 +67,17 @@ def write_wages(path: Path, name: str, sheet: WageSheet) -> None:
         page = OrderPage(canvas, title, name)
         page.heading(name, 15.0)
         amount = money(Decimal(repr(rules.amount)).quantize(Decimal("0.01")), sheet.currency)
-        facts = [(Sentence("order.rule"), rules.region)] if rules.region else []
-        facts += [(Sentence("order.rate"), Sentence("order.rate-text", amount=amount, knots=_count(rules.knots)))]
+        facts = [(Sentence("order.rule"), Name(rules.region))] if rules.region else []
+        facts += [(Sentence("order.rate"), Sentence("order.rate-text", amount=amount, knots=thousands(rules.knots)))]
         if rules.supplement:
             share = percent(rules.supplement)
             text = Sentence("order.supplement-text", share=share, colours=rules.colours, used=sheet.colours)
             facts += [(Sentence("order.supplement"), text)]
+        facts += [(Sentence("order.knots"), thousands(sheet.knots))]
+        if sheet.flat:
+            share = Sentence("order.flat-rate-text", share=percent(rules.flat))
+            facts += [(Sentence("order.flat"), thousands(sheet.flat)), (Sentence("order.flat-rate"), share)]
         facts += [
-            (Sentence("order.knots"), _count(sheet.knots)),
             (Sentence("order.wage"), money(sheet.wage, sheet.currency)),
             (Sentence("order.advance"), money(sheet.advance, sheet.currency)),
             (Sentence("order.woven"), Sentence("order.woven-text", done=sheet.done, rows=sheet.rows)),
@@ -75,7 +89,8 @@ def write_wages(path: Path, name: str, sheet: WageSheet) -> None:
             (
                 "✓" if one.row <= sheet.done else BOX,
                 str(one.row),
-                _count(one.knots),
+                thousands(one.knots),
+                thousands(one.flat) if one.flat else "–",
                 money(one.earned),
                 money(one.deducted),
                 money(one.paid),
@@ -85,14 +100,11 @@ def write_wages(path: Path, name: str, sheet: WageSheet) -> None:
         total = (
             "",
             "",
-            _count(sheet.knots),
+            thousands(sheet.knots),
+            thousands(sheet.flat) if sheet.flat else "–",
             money(sheet.wage),
             money(sheet.advance),
             money(sheet.wage - sheet.advance),
         )
         page.table(_PAYMENTS, [*rows, total], sums=1)
         page.end()
-
-
-def _count(number: int) -> str:
-    return f"{number:,}".replace(",", "\u202f")

@@ -164,8 +164,6 @@ class Analysis:
             yield f"no speed is given: forces at {run.speed:g} {'rad/s' if run.unit == 'deg' else 'm/s'}; give --speed"
         if run.machine.frictions and run.forces is not None and not run.forces.forces.frictions:
             yield "the friction of joints is left out: the inputs stand still; give --speed"
-        if run.machine.frictions and self.forward is not None:
-            yield "the friction of joints is not part of the forward run; give a damper for its losses"
 
 
 def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:

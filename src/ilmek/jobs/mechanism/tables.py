@@ -85,7 +85,8 @@ def _study_table(study: StudyOfSpeeds) -> Table:
 def _events_table(forward: "OwnForward") -> Table:
     position, speed = ("deg", "rpm") if forward.turning else ("mm", "m/s")
     heads = columns("event", "time [s]", f"position [{position}]", f"speed [{speed}]")
-    rows = tuple((event.name, event.time, event.state.position, event.state.speed) for event in forward.run.events)
+    events = forward.run.events
+    rows = tuple((one.name, one.time, float(one.state.position), float(one.state.speed)) for one in events)
     return Table("events", "Events of the forward run", heads, rows, brief=True)
 
 

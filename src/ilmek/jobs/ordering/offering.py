@@ -4,16 +4,16 @@ from datetime import datetime, timedelta
 from decimal import Decimal
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.price_rules import WageRules, cents
+from ilmek.carpet.price_rules import cents
 from ilmek.carpet.strike_off import part_of, strike_off_window
 from ilmek.errors import ParameterError
 from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
 from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.plan import PlanResult
-from ilmek.jobs.plan_inputs import PlannedOrder
+from ilmek.jobs.plan_fits import PlannedOrder
 from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
 from ilmek.records import record
-from ilmek.sentences import Sentence
+from ilmek.sentences import Name, Sentence
 from ilmek.viz.carpet_picture import draw_carpet, shown_size
 from ilmek.viz.room import draw_room
 
@@ -40,7 +40,7 @@ class OrderLine:
     @property
     def name(self) -> str:
         """As in the file, with size and colourway."""
-        return self.planned.entry.name
+        return Name(self.planned.entry.name)
 
 
 def order_lines(plan: PlanResult) -> tuple[OrderLine, ...]:
@@ -62,7 +62,9 @@ def offer_of(plan: PlanResult, lines: tuple[OrderLine, ...]) -> Offer:
     orders = plan.inputs.orders_file
     until = orders.start + timedelta(days=orders.price.valid)
     date, last = (f"{day:%Y-%m-%d}" for day in (orders.start, until))
-    return Offer(orders.customer, date, last, orders.currency, orders.price, tuple(line.offered for line in lines))
+    return Offer(
+        Name(orders.customer), date, last, orders.currency, orders.price, tuple(line.offered for line in lines)
+    )
 
 
 def shown_carpet(chart: Chart) -> ShownCarpet:
@@ -79,18 +81,18 @@ def shown_carpet(chart: Chart) -> ShownCarpet:
 def _line(plan: PlanResult, index: int, charted: ChartResult, shown: ShownCarpet) -> OrderLine:
     planned, orders = plan.inputs.orders[index], plan.inputs.orders_file
     by_hand = all(plan.inputs.looms_file.looms[carpet.loom].hand is not None for carpet in plan.carpets(index))
-    wage = _wage(orders.wage, charted) if by_hand else None
+    wage = orders.wage.of(charted.chart) if orders.wage is not None and by_hand else None
     costs = _costs(plan, index, charted, wage)
     cost = float(sum((amount for _, amount in costs), Decimal(0)))
     carpets = sum(order.entry.quantity for order in plan.inputs.orders)
     price = orders.price.quoted(cost, planned.entry.quantity, carpets)
     delivery = max(finished(plan, index))
     offered = OfferedCarpet(
-        planned.entry.name,
-        planned.entry.design,
+        Name(planned.entry.name),
+        Name(planned.entry.design),
         charted.chart,
         charted.bill,
-        charted.pile.pile_height,
+        charted.construction,
         costs,
         price,
         f"{delivery:%Y-%m-%d}",
@@ -109,10 +111,6 @@ def finished(plan: PlanResult, index: int) -> list[datetime]:
     return found
 
 
-def _wage(rules: WageRules | None, charted: ChartResult) -> Decimal | None:
-    return None if rules is None else rules.wage(charted.bill.knots, charted.chart.colours)
-
-
 def _costs(
     plan: PlanResult, index: int, charted: ChartResult, wage: Decimal | None
 ) -> tuple[tuple[Sentence, Decimal], ...]:
@@ -124,7 +122,7 @@ def _costs(
     if finishing is None:
         off_loom = sum(_known(step, plan) for step in steps if step.name not in ON_LOOM) / len(carpets)
     else:
-        off_loom = finishing * charted.chart.size.area
+        off_loom = finishing * charted.bill.area
     yarn = charted.bill.price if charted.bill.currency == orders.currency else None
     if yarn is None:
         given = f"{orders.path}: no price of the yarn of {orders.orders[index].name!r} in {orders.currency}"

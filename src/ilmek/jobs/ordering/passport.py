@@ -7,8 +7,6 @@ from pathlib import Path
 
 from ilmek.carpet.bill import YarnNeed
 from ilmek.carpet.footprint import FACTORS, emissions
-from ilmek.carpet.ground import TAPE_MATERIAL
-from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.io.call_state import chart_digest
 from ilmek.jobs.ordering.offering import OrderLine
 from ilmek.jobs.ordering.progress import WovenRows, rows_by_day
@@ -30,11 +28,10 @@ def carpet_record(
     lots    the dye lot in stock of each yarn
     """
     chart, bill = line.charted.chart, line.charted.bill
-    materials = CarpetYarnParams()
     fibres: dict[str, float] = defaultdict(float)
     for need in bill.needs:
-        fibres[_material(need, materials)] += need.kept
-    gases = emissions(_spun(bill.needs, materials), line.energy)
+        fibres[need.material] += need.kept
+    gases = emissions(_spun(bill.needs), line.energy)
     return {
         "identity": identity_of(reference, line, number),
         "order": reference,
@@ -52,9 +49,9 @@ def carpet_record(
             "length": chart.size.length,
             "across": chart.quality.across,
             "along": chart.quality.along,
-            "pile_height": line.charted.pile.pile_height,
+            **line.offered.made.as_json(),
         },
-        "yarn": [_yarn(need, materials, lots.get(need.bought or need.name, "")) for need in bill.needs],
+        "yarn": [_yarn(need, lots.get(need.bought or need.name, "")) for need in bill.needs],
         "fibre": [
             {"material": name, "mass": mass, "share": mass / sum(fibres.values())} for name, mass in fibres.items()
         ],
@@ -77,26 +74,20 @@ def carpet_record(
     }
 
 
-def _material(need: YarnNeed, yarns: CarpetYarnParams) -> str:
-    """The fibre of a line of the bill; selvedges are of the pile's yarn, ends of the weft's."""
-    own = {"warp": yarns.warp, "weft": yarns.weft, "end": yarns.weft, "tape": TAPE_MATERIAL}
-    return own.get(need.use, yarns.pile)
-
-
-def _spun(needs: tuple[YarnNeed, ...], materials: CarpetYarnParams) -> dict[str, float]:
+def _spun(needs: tuple[YarnNeed, ...]) -> dict[str, float]:
     """The mass of each material that is spun for the carpet, waste included [kg]."""
     spun: dict[str, float] = defaultdict(float)
     for need in needs:
-        spun[_material(need, materials)] += need.mass
+        spun[need.material] += need.mass
     return spun
 
 
-def _yarn(need: YarnNeed, materials: CarpetYarnParams, lot: str) -> JsonObject:
+def _yarn(need: YarnNeed, lot: str) -> JsonObject:
     """A yarn of the record; the first of its lots is that in stock, where it is known."""
     return {
         "name": need.bought or need.name,
         "use": need.use,
-        "material": _material(need, materials),
+        "material": need.material,
         "count": need.count,
         "knots": need.knots,
         "mass": need.mass,

@@ -35,20 +35,29 @@ def woven_rows(chart: Chart, run: Path | None) -> WovenRows:
     Raises LoomError for a folder without a journal, and for the run of another carpet.
     """
     if run is not None:
-        found = run_status(run)
-        if found.get("rows", chart.rows) != chart.rows:
-            given = f"the run in {run} weaves {found['rows']} rows, the carpet has {chart.rows}"
-            raise LoomError(given, do="give the run of this carpet: --run NAME=DIR")
-        complete = found["state"] == state_name(PackState.COMPLETE)
-        row = found.get("row", 1)
-        done = chart.rows if complete else min(chart.rows, int(str(row))) - 1
-        return WovenRows(done, _day(run / JOURNAL), "journal") if done else NOT_BEGUN
+        return rows_of_run(run, chart.rows)[0]
     try:
         path = state_file(chart)
         state = read_state(path, chart.rows)
         return NOT_BEGUN if state is None or state.row < 2 else WovenRows(state.row - 1, _day(path), "call")
     except (OSError, DamagedStateError):
         return NOT_BEGUN
+
+
+def rows_of_run(run: Path, rows: int) -> tuple[WovenRows, float]:
+    """The rows that are woven by the journal in the folder of a run, and the loom's clock [s].
+
+    rows  of the carpet
+    Raises LoomError as `run_status`, and for the run of another carpet.
+    """
+    found = run_status(run)
+    if found.get("rows", rows) != rows:
+        given = f"the run in {run} weaves {found['rows']} rows, the carpet has {rows}"
+        raise LoomError(given, do="give the run of this carpet")
+    complete = found["state"] == state_name(PackState.COMPLETE)
+    done = rows if complete else min(rows, int(str(found.get("row", 1)))) - 1
+    woven = WovenRows(done, _day(run / JOURNAL), "journal") if done else NOT_BEGUN
+    return woven, float(str(found.get("time", 0.0)))
 
 
 def rows_by_day(woven: WovenRows, before: Path, chart: Chart) -> list[JsonObject]:

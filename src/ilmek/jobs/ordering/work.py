@@ -23,10 +23,11 @@ from ilmek.jobs.order import recipe_parameters
 from ilmek.jobs.ordering.offering import OrderLine, finished, offer_of, order_lines
 from ilmek.jobs.ordering.progress import WovenRows, woven_rows
 from ilmek.jobs.ordering.workshop import WorkshopTerms, wage_sheet, write_workshop
-from ilmek.jobs.plan import PlanResult, plan_factory, plan_results
+from ilmek.jobs.plan import PlanResult, plan_factory
+from ilmek.jobs.plan_results import plan_results
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
-from ilmek.report import Check
+from ilmek.report import Check, at_most
 from ilmek.sentences import in_language
 
 _PLAIN = str.maketrans({"ı": "i", "ß": "ss", "ø": "o", "Ø": "O", "ł": "l", "æ": "ae"})
@@ -56,8 +57,15 @@ class OrderResult:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Of every order: it is in time, or why no loom weaves it; with what would save a late one."""
-        return self.plan.checks
+        """Of every order: it is in time, washed and dry too, or why no loom weaves it; with what would save it."""
+        delays = []
+        for line in self.lines:
+            last, due = max(finished(self.plan, self.plan.inputs.orders.index(line.planned))), line.planned.entry.due
+            delay, cure = (last - due).total_seconds(), f"agree the due date {last:%Y-%m-%d %H:%M}"
+            delays.append(
+                at_most(f"{line.name}: delay, finished", max(0.0, delay), 0.0, "h", "the due date").with_cure(cure)
+            )
+        return (*self.plan.checks, *delays)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -195,7 +203,7 @@ def _carpet(done: OrderResult, number: int, planned: JsonObject) -> JsonObject:
         "columns": chart.columns,
         "knots": bill.knots,
         "yarns": [chart.yarns[yarn].name for yarn in chart.used],
-        "pile_height": line.offered.pile_height,
+        **line.offered.made.as_json(),
         "mass": bill.mass_per_area * bill.area,
         "costs": {name.key.removeprefix("order.cost-"): float(cost) for name, cost in line.offered.costs},
         "cost": float(price.cost),

@@ -1,23 +1,24 @@
 """The folder of a carpet for the workshop: chart, rows, yarn, mounting sheet, wages, strike-off, label and record."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ilmek.carpet.bill import yarn_bill
+from ilmek.carpet.footprint import FACTORS
 from ilmek.carpet.mounting import mounting
-from ilmek.carpet.price_rules import WageRules
+from ilmek.carpet.price_rules import WageRules, woven_in_rows
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.strike_off import part_of
 from ilmek.io.carpet_record import code_of, signed_record
 from ilmek.io.chart.formats import FORMATS
+from ilmek.io.chart.legend import thousands
 from ilmek.io.chart.printing import size_of
 from ilmek.io.json_file import json_text
 from ilmek.io.selling.label import write_label
 from ilmek.io.selling.mounting_sheet import write_mounting
+from ilmek.io.selling.quotation import outline_facts
 from ilmek.io.selling.wage_sheet import WageSheet, write_wages
 from ilmek.jobs.chart import ChartResult, write_chart
 from ilmek.jobs.ordering.offering import OrderLine
@@ -25,7 +26,8 @@ from ilmek.jobs.ordering.passport import carpet_record
 from ilmek.jobs.ordering.progress import NOT_BEGUN, WovenRows
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
-from ilmek.sentences import Sentence, in_language, translated
+from ilmek.sentences import Name, Sentence, in_language, translated
+from ilmek.units import format_number, mm
 
 _FIBRES = {"wool": "order.fibre-wool", "cotton": "order.fibre-cotton", "silk": "order.fibre-silk"}
 """What the label names each material by."""
@@ -67,7 +69,9 @@ def write_workshop(
     """
     order = line.charted.order.order
     files = replace(order.files, lang=terms.language)
-    charted = replace(line.charted, order=replace(line.charted.order, order=replace(order, files=files)))
+    charted = replace(
+        line.charted, order=replace(line.charted.order, order=replace(order, files=files)), name=line.name
+    )
     names = [*write_chart(charted, work, left_out, progress.part(0.0, 0.7))[0]]
     with in_language(terms.language):
         names += _sheets(line, terms, woven, work)
@@ -81,7 +85,7 @@ def write_workshop(
         (work / file).write_text(json_text(made), encoding="utf-8")
         label = f"label-{number}.pdf"
         with in_language(terms.customer_language):
-            write_label(work / label, f"{line.name} · {number}", _label_facts(found, line), str(code_of(made)))
+            write_label(work / label, Name(f"{line.name} · {number}"), _label_facts(found, line), str(code_of(made)))
         names += [file, label]
         records.append(made)
     return names, records
@@ -99,16 +103,8 @@ def _sheets(line: OrderLine, terms: WorkshopTerms, woven: WovenRows, work: Path)
 def wage_sheet(charted: ChartResult, rules: WageRules, currency: str, woven: WovenRows) -> WageSheet:
     """The wage of a carpet, and what of it is due."""
     chart = charted.chart
-    in_rows = knots_in_rows(charted)
-    payments = rules.payments(in_rows, chart.colours)
-    return WageSheet(rules, currency, chart.rows, sum(in_rows), chart.colours, payments, woven.rows)
-
-
-def knots_in_rows(charted: ChartResult) -> Sequence[int]:
-    """The knots of each row, row 1 first; a cell without a knot has the code of no yarn."""
-    chart = charted.chart
-    counts: list[int] = np.count_nonzero(chart.knots < len(chart.yarns), axis=1)[::-1].tolist()
-    return counts
+    payments = rules.payments(woven_in_rows(chart), chart.colours)
+    return WageSheet(rules, currency, chart.rows, chart.colours, payments, woven.rows)
 
 
 def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Progress) -> list[str]:
@@ -116,7 +112,9 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
     chart = part_of(charted.chart, line.offered.shown.sample)
     order = charted.order
     bill = yarn_bill(chart, order.order.plan)
-    sample = replace(charted, chart=chart, bill=bill, statistics=chart_statistics(chart))
+    with in_language(order.order.files.lang):
+        name = f"{line.name}: {translated(Sentence('order.sample'))}"
+    sample = replace(charted, chart=chart, bill=bill, statistics=chart_statistics(chart), name=name)
     names = []
     for row in (FORMATS["png"], *(row for row in FORMATS.values() if row.printed)):
         names.append(f"{STRIKE_OFF}{Path(row.file).suffix}")
@@ -127,12 +125,18 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
 
 def _label_facts(found: JsonObject, line: OrderLine) -> list[tuple[str, str]]:
     shares = {part["material"]: f"{100 * part['share']:.0f} %" for part in found["fibre"]}
+    heights = " / ".join(format_number(round(pile.height / mm, 2)) for pile in line.offered.made.piles)
     fibre = ", ".join(f"{translated(Sentence(_FIBRES[name]))} {share}" for name, share in shares.items())
+    assumed = any(FACTORS[part["name"]].assumed and part["mass"] for part in found["emissions"]["parts"])
+    gases = f"{found['emissions']['mass']:.1f} kg CO\u2082e"
+    gases = Sentence("order.gases-assumed", gases=gases) if assumed else gases
     return [
         (Sentence("order.size"), size_of(line.charted.chart.size)),
-        (Sentence("order.knots"), f"{found['design']['knots']:,}".replace(",", "\u202f")),
+        (Sentence("order.knots"), thousands(found["design"]["knots"])),
+        *outline_facts(line.offered.made),
+        (Sentence("order.pile"), Sentence("order.heights", heights=heights)),
         (Sentence("order.mass"), Sentence("order.mass-text", mass=f"{found['mass']:.2f}")),
         (Sentence("order.fibre"), fibre),
-        (Sentence("order.gases"), f"{found['emissions']['mass']:.1f} kg CO\u2082e"),
+        (Sentence("order.gases"), gases),
         (Sentence("order.record"), found["identity"]),
     ]

@@ -8,7 +8,6 @@ early: the answer whether it is in the carpet waits for its end.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -26,7 +25,7 @@ from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
 from ilmek.loom.twin.state import Door, EmergencyStop, Repaired
 from ilmek.loom.twin.woven import Woven
-from ilmek.records import value_record
+from ilmek.records import JsonObject, value_record
 
 ORDERS = ("TieStart", "TieColumn", "TieTube", "EndStart", "EndCode", "ChangeStart", "JogStart", "JogAxis", "Halt",
           "AskTie", "AskEnd", "StateCurrent", "Alarm", "RowRequest", "RowsBackRequest")  # fmt: skip
@@ -148,7 +147,7 @@ class PlcPlant:
 
         Raises LoomError for an order that no loom can carry out, and for one that would damage it.
         """
-        values: dict[str, Any] = dict(plc)
+        values: JsonObject = dict(plc)
         self._attend(values)
         if values["Halt"] and not self._halted:
             self.halt()
@@ -177,7 +176,7 @@ class PlcPlant:
     def _idle(self) -> bool:
         return self._alone is None and not any(drive.begun for drive in self._drives)
 
-    def _attend(self, plc: dict[str, Any]) -> None:
+    def _attend(self, plc: JsonObject) -> None:
         """The operator repairs what an alarm has stopped, and takes out rows that are to be woven again."""
         if not plc["Alarm"]:
             self._alarm = 0
@@ -189,7 +188,7 @@ class PlcPlant:
             self._woven.take_out(plc["RowRequest"], self.row)
             self.row = plc["RowRequest"]
 
-    def _step_drive(self, station: int, start: bool, plc: dict[str, Any]) -> None:
+    def _step_drive(self, station: int, start: bool, plc: JsonObject) -> None:
         drive, loom = self._drives[station], self._drives[-1]
         if not start:
             drive.withdraw()
@@ -205,7 +204,7 @@ class PlcPlant:
             drive.begun = True
             self._port.send((drive.order,))
 
-    def _order(self, station: int, plc: dict[str, Any]) -> Order:
+    def _order(self, station: int, plc: JsonObject) -> Order:
         if station == self._heads:
             code = plc["EndCode"]
             return Home(_AXES[code].value) if code in _AXES else EndRow(self.row, RowEnd(code))
@@ -243,10 +242,10 @@ class PlcPlant:
         if isinstance(report, Done) and isinstance(order, EndRow) and order.operation is RowEnd.TAKE_UP:
             self.row += 1
 
-    def _signals(self, plc: dict[str, Any]) -> dict[str, PlcValue]:
+    def _signals(self, plc: JsonObject) -> dict[str, PlcValue]:
         *heads, loom = self._drives
         sensors, row = self._port.sensors(), plc["RowRequest"]
-        values: dict[str, Any] = {name: getattr(sensors, sensor) for sensor, name in SENSOR_NAMES.items()}
+        values: JsonObject = {name: getattr(sensors, sensor) for sensor, name in SENSOR_NAMES.items()}
         tension = values["WarpTension"]
         ties = [
             _answer(drive, self._port.knotted(row, column) if asked else None)

@@ -4,14 +4,13 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import Any
 
 from ilmek.elements.fits import tolerance_zone
 from ilmek.errors import IlmekError, ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
 from ilmek.jobs.study.targets import StudyTarget
 from ilmek.params import Parameter, Setting, Value
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.studies.outcome import Hold, result_named
 from ilmek.studies.samples import SAMPLINGS
 from ilmek.studies.variable import NORMAL, TRIANGULAR, UNIFORM, Variable
@@ -207,7 +206,7 @@ KEYS = {
 """Keys of a study file, and the kinds of their values."""
 
 
-def study_file(path: Path) -> dict[str, Any] | None:
+def study_file(path: Path) -> JsonObject | None:
     """The data of a study file, which has the key `target`; None for a file of another kind.
 
     The target's file is found beside it. Raises ParameterError with file and line.

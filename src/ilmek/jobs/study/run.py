@@ -1,11 +1,11 @@
 """A study: from its order to the results file and what follows from it."""
 
+import math
 import tempfile
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ilmek.jobs.study.order import (
 from ilmek.jobs.study.targets import PLAYS, MachineTarget, StudyTarget, read_target
 from ilmek.num.pareto import front
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.framed import Framed
 from ilmek.studies.allocation import Allocation, allocated, scaled
 from ilmek.studies.fronts import evolve
@@ -72,19 +72,17 @@ class StudyResult(Framed):
     optimum: Optimum | None = None
     file: Path | None = None
 
-    def values(self, name: str) -> FloatArray:
-        """The values of a variable or a result over the designs [SI]."""
-        names = [variable.name for variable in self.variables]
-        if name in self.results:
-            return np.asarray(self.rows.results[:, self.results.index(name)])
-        return np.asarray(self.rows.points[:, names.index(name)])
+    def values(self, name: str) -> np.ndarray:
+        """The values of a variable or a result over the designs [SI]; of choices that are texts, the texts."""
+        table = self.table()
+        return table[f"{name} (result)" if name in self.results and f"{name} (result)" in table else name]
 
-    def table(self) -> dict[str, FloatArray]:
+    def table(self) -> dict[str, np.ndarray]:
         """All designs as columns [SI]: variables, results, failed checks, least margin."""
-        names = [variable.name for variable in self.variables]
-        heads = (*names, *(f"{name} (result)" if name in names else name for name in self.results))
-        numbers = np.column_stack([self.rows.points, self.rows.results, self.rows.failed, self.rows.worst])
-        return dict(zip((*heads, "failed", "worst"), numbers.T, strict=True))
+        varied = {v.name: v.column(points) for v, points in zip(self.variables, self.rows.points.T, strict=True)}
+        heads = (f"{name} (result)" if name in varied else name for name in self.results)
+        found = dict(zip(heads, self.rows.results.T, strict=True))
+        return {**varied, **found, "failed": self.rows.failed, "worst": self.rows.worst}
 
     def command(self, number: int) -> str:
         """The command line that makes a design, its pins without play."""
@@ -123,7 +121,7 @@ def study(
     holds = tuple(read_hold(text, units) for text in order.holds)
     named = (*(goal.result for goal in goals), *(hold.result for hold in holds), *names_of(order.record, units))
     results = tuple(dict.fromkeys(named))
-    samples = order.samples or SAMPLES[order.method]
+    order, samples = _counted(order, variables)
     plan = _plan(order, target, variables, results, goals, holds)
     with ExitStack() as stack:
         if file is None:
@@ -143,6 +141,15 @@ def study(
         )  # fmt: skip
 
 
+def _counted(order: StudyOrder, variables: tuple[Variable, ...]) -> tuple[StudyOrder, int]:
+    """The order with its number of designs; a sweep of listed values alone has each of their combinations once."""
+    if order.samples is None and order.method == "sweep" and all(variable.choices for variable in variables):
+        every = math.prod(len(variable.choices) for variable in variables)
+        return replace(order, sampling="grid", samples=every), every
+    samples = order.samples or SAMPLES[order.method]
+    return replace(order, samples=samples), samples
+
+
 def _plan(  # noqa: PLR0917 - all that distinguishes a study
     order: StudyOrder,
     target: StudyTarget,
@@ -150,15 +157,15 @@ def _plan(  # noqa: PLR0917 - all that distinguishes a study
     results: tuple[str, ...],
     goals: tuple[Goal, ...],
     holds: tuple[Hold, ...],
-) -> dict[str, Any]:
+) -> JsonObject:
     """What is studied, as plain data: the header of the results file."""
-    plan = {
+    plan: dict[str, Any] = {
         "target": dict(target.identity),
         "variables": [[v.name, v.low, v.high, v.nominal, v.spread, list(v.choices)] for v in variables],
         "results": list(results),
         "goals": [goal.text for goal in goals],
         "holds": [[hold.result, hold.relation, hold.limit] for hold in holds],
-        "method": [order.method, order.sampling, order.samples or SAMPLES[order.method], order.seed],
+        "method": [order.method, order.sampling, order.samples, order.seed],
     }
     if order.correlate or order.yield_target:
         plan["tolerances"] = [list(order.correlate), order.yield_target, dict(order.costs)]
@@ -191,9 +198,7 @@ def _front(rows: StudyRows, goals: tuple[Goal, ...], results: tuple[str, ...]) -
     return tuple(int(number) for number in usable[best][first])
 
 
-def _sweep(
-    recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object
-) -> dict[str, Any]:
+def _sweep(recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object) -> JsonObject:
     points = sampled(recorder.variables, order.sampling, samples, order.seed)
     for start in range(0, len(points), BLOCK):
         recorder(points[start : start + BLOCK])
@@ -202,7 +207,7 @@ def _sweep(
 
 def _sensitivity(
     recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     def evaluate(points: FloatArray) -> FloatArray:
         return np.asarray(recorder(points).results)
 
@@ -214,7 +219,7 @@ def _sensitivity(
 
 def _tolerance(
     recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     variables, sampling = recorder.variables, "latin" if order.sampling == "grid" else order.sampling
     correlation = correlation_of(variables, read_correlations(order.correlate))
     drawn = recorder(sampled(variables, sampling, samples, order.seed, correlation))
@@ -241,7 +246,7 @@ def _tolerance(
 
 def _optimum(
     recorder: DesignRecorder, order: StudyOrder, samples: int, goals: tuple[Goal, ...], results: tuple[str, ...]
-) -> dict[str, Any]:
+) -> JsonObject:
     columns = [results.index(goal.result) for goal in goals]
     signs = np.array([goal.sign for goal in goals])
 

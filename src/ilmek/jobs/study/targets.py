@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import MechanismError, ParameterError, did_you_mean
 from ilmek.io.data_text import read_data
@@ -83,7 +82,7 @@ class MechanismTarget:
     which it lies, `side.PIN` [rad] in the frame of the pin's second body: links without mass of that length.
     """
 
-    data: Mapping[str, Any]
+    data: Mapping[str, object]
     digest: str
     request: MotionRequest
 

@@ -23,7 +23,7 @@ from ilmek.loom.twin.durations import durations_of, ns
 from ilmek.loom.twin.faults import CAUSES, StopParams
 from ilmek.loom.twin.kernel import ALL_CALLS, COUNTS, FAILED, STOPPED, TIME, WORK
 from ilmek.loom.twin.packages import PackageUse
-from ilmek.records import computed, record
+from ilmek.records import JsonObject, computed, record
 from ilmek.report import Json
 from ilmek.units import BILLION, hour
 
@@ -193,7 +193,7 @@ class CarpetStatistics:
         "uses of the time, mean of the heads, the largest first: time [s], share, what would shorten it",
         shown=False,
     )
-    def losses(self) -> list[dict[str, Any]]:
+    def losses(self) -> list[JsonObject]:
         mean = self.by_head.mean(axis=0)
         order = np.argsort(-mean, kind="stable")
         return [
@@ -202,7 +202,7 @@ class CarpetStatistics:
         ]
 
     @computed("", "each head: share of the weaving time by use, changes, phases that it ended last", shown=False)
-    def heads(self) -> list[dict[str, Any]]:
+    def heads(self) -> list[JsonObject]:
         shares = self.by_head / self.time
         return [
             {
@@ -215,7 +215,7 @@ class CarpetStatistics:
         ]
 
     @computed("", "stops by cause: faults, calls of the operator, his time and standstill of the loom [s]", shown=False)
-    def stops(self) -> list[dict[str, Any]]:
+    def stops(self) -> list[JsonObject]:
         sums, lost = self.run.sums, self.run.lost
         return [
             {
@@ -230,7 +230,7 @@ class CarpetStatistics:
         ]
 
     @computed("", "pile yarn of each colour [m]: in knots, lost with faults, left on packages", shown=False)
-    def yarn(self) -> list[dict[str, Any]]:
+    def yarn(self) -> list[JsonObject]:
         found = []
         for index, yarn in enumerate(self.setup.yarns):
             own = [use for use in self.packages_used if use.yarn == index]
@@ -248,7 +248,7 @@ class CarpetStatistics:
         return found
 
     @computed("", "packages of pile yarn by head and tube [m]: length, used with what is lost, left", shown=False)
-    def packages(self) -> list[dict[str, Any]]:
+    def packages(self) -> list[JsonObject]:
         return [
             {
                 "head": use.head + 1,
@@ -281,6 +281,6 @@ class CarpetStatistics:
         return {**self.times.as_json(), "runs": len(self.times.values)}
 
     @computed("", "overall equipment effectiveness over the seeds, as `time_band`", shown=False)
-    def oee_band(self) -> dict[str, Any]:
+    def oee_band(self) -> JsonObject:
         sums = self.seeds if len(self.seeds) else self.run.sums[None]
         return Band(effectiveness(sums, self.planned, self.setup, self.params).oee).as_json()

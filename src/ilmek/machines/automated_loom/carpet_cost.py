@@ -45,6 +45,7 @@ class CarpetCost:
 
     dressing  of the loom for a carpet [s]      floor  that the loom needs, with the aisle round it [m^2]
     machine   what the loom costs its maker     stops  expected standstill for the operator [s]
+    carved    length of carved lines [m]
     """
 
     rates: CostRates
@@ -56,6 +57,7 @@ class CarpetCost:
     floor: float
     machine: MachineCost
     stops: float = 0.0
+    carved: float = 0.0
 
     @computed("", "price of the loom: parts, made with assembly and setting to work, sold with the maker's margin")
     def machine_price(self) -> dict[str, float]:
@@ -95,13 +97,14 @@ class CarpetCost:
     def steps(self) -> list[MakingStep]:
         """The steps of making from the warping on, in order."""
         warping = min(self.dressing, self.changeover)
-        return making_steps((warping, self.time, self.changeover - warping), self.cost_shares, self.rates, self.area)
+        on_loom = (warping, self.time, self.changeover - warping)
+        return making_steps(on_loom, self.cost_shares, self.rates, self.area, self.carved)
 
     @computed("", "cost of the carpet tied by hand, without its yarn")
     def hand_cost(self) -> float:
         rates = self.rates
         day = rates.weaver_day * rates.wage
-        return self.knots / rates.weaver_knots * day + rates.finishing * self.area
+        return self.knots / rates.weaver_knots * day + rates.finishing(self.area, self.carved)
 
     @computed(
         "day",
@@ -156,5 +159,5 @@ class CarpetCost:
             "upkeep": rates.upkeep * self.sold / carpets,
             "floor": rates.rent * self.floor / carpets,
             "energy": rates.energy * self.energy,
-            "finishing": rates.finishing * self.area,
+            "finishing": rates.finishing(self.area, self.carved),
         }

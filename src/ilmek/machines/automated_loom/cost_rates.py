@@ -63,6 +63,9 @@ class CostRates(Params):
     shearing_time: float = param(
         360.0, unit="min/m^2", at_least=0.0, at_most=1e6, doc="shearing; usual: 2 to 20 min a square metre"
     )
+    carving_speed: float = param(
+        4 / 3600, unit="m/h", above=0.0, at_most=1.0, doc="carving of lines by hand; usual: 2 to 8 m an hour"
+    )
     washing: float = param(
         7.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="washing, drying and stretching of the carpet; usual: 3 to 15"
     )
@@ -105,7 +108,6 @@ class CostRates(Params):
     )
     weaver_day: float = kind.time(8 * 3600.0, unit="h", above=0.0, at_most=86400.0, doc="hours of a weaver's day")
 
-    @property
-    def finishing(self) -> float:
-        """Inspection, shearing and washing of the carpet, cost of an area [1/m^2]."""
-        return self.inspection + self.shearing + self.washing
+    def finishing(self, area: float, carved: float = 0.0) -> float:
+        """Cost of inspection, shearing and washing of a carpet of an area [m^2], and of the carving of lines [m]."""
+        return (self.inspection + self.shearing + self.washing) * area + self.wage * carved / self.carving_speed

@@ -18,6 +18,7 @@ the carriage's position is to be taken from there. A rapier goes in and out in e
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -109,6 +110,7 @@ class RowTiming:
 CARRIAGE = "carriage"
 
 
+@lru_cache(maxsize=16)
 def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     """The cyclogram of a knot at a period [s]: the head's tracks, and its carriage, which steps on to the next knot.
 

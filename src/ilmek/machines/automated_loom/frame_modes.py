@@ -10,7 +10,7 @@ What they keep their distance from: `shaking`.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import TypeAlias
@@ -134,7 +134,8 @@ def _member(start: int, end: int, section: HollowSquare, number: int = 1) -> Fra
     return FrameMember(start, end, number * section.area, number * section.inertia, number * section.line_mass)
 
 
-def _levels(loom: LoomDesign, beams: Iterable[float]) -> tuple[list[float], list[float]]:
+@lru_cache(maxsize=64)
+def _levels(loom: LoomDesign, *beams: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Heights above the floor at which a side has nodes, from its feet on, and what it carries at each [m, kg]."""
     top = loom.side.top - loom.side.floor
     masses = [(mass / 2, min(height, top)) for mass, height in carried_masses(loom)]
@@ -142,7 +143,7 @@ def _levels(loom: LoomDesign, beams: Iterable[float]) -> tuple[list[float], list
     carried = [0.0] * len(levels)
     for mass, height in masses:
         carried[_nearest(levels, height)] += mass
-    return levels, carried
+    return tuple(levels), tuple(carried)
 
 
 def _apart(*coordinates: float) -> list[float]:
@@ -154,7 +155,7 @@ def _apart(*coordinates: float) -> list[float]:
     return [low for low, high in pairwise([*sorted(coordinates), math.inf]) if high - low > _NEAR]
 
 
-def _nearest(coordinates: list[float], wanted: float) -> int:
+def _nearest(coordinates: Sequence[float], wanted: float) -> int:
     return min(range(len(coordinates)), key=lambda k: abs(coordinates[k] - wanted))
 
 
@@ -171,7 +172,7 @@ def _across(loom: LoomDesign, frame: LoomFrame) -> _Sway:
         cam_beam(loom, frame, brackets).imag - floor: frame.column,
         brackets.rest.imag - floor: brackets.beam,
     }
-    levels, carried = _levels(loom, beams)
+    levels, carried = _levels(loom, *beams)
     half, number = sum(frame.beside(brackets.face)) / frame.number, len(levels)
     nodes = [complex(x, y) for x in (-half, half) for y in levels]
     members = [
@@ -188,7 +189,7 @@ def _across(loom: LoomDesign, frame: LoomFrame) -> _Sway:
 
 def _along(loom: LoomDesign, frame: LoomFrame) -> _Sway:
     """A side: its columns, on feet that bend between their ends, and the posts before the columns."""
-    levels, carried = _levels(loom, ())
+    levels, carried = _levels(loom)
     rear, front = foot_reach(loom, frame)
     base, column = base_section(loom, frame), loom.side.column
     posts = [(depth - column, height, section, mass) for depth, height, section, mass in _posts(loom, frame)]

@@ -2,6 +2,7 @@
 
     on the loom    (dressing + taking down + weaving) share what loom, floor and persons cost of a carpet by their times
     off the loom   rate * area;   inspection and shearing take their time by area, washing with drying that of a carpet
+    carving        wage * time by the length of the lines
 
 Weaving has the energy too. The costs of all steps are that of a carpet without its yarn.
 """
@@ -30,11 +31,12 @@ class MakingStep:
 
 
 def making_steps(
-    times: Sequence[float], shares: Mapping[str, float], rates: CostRates, area: float
+    times: Sequence[float], shares: Mapping[str, float], rates: CostRates, area: float, carved: float = 0.0
 ) -> list[MakingStep]:
     """The steps of making of a carpet, in order.
 
     times   of the steps on the loom, as ON_LOOM [s]        area    of the carpet [m^2]
+    carved  length of its carved lines [m]
     shares  the cost of a carpet by cause, without yarn
     """
     an_hour = sum(cost for cause, cost in shares.items() if cause not in {"energy", "finishing"}) / sum(times)
@@ -42,13 +44,18 @@ def making_steps(
         MakingStep(name, time, an_hour * time + (shares["energy"] if name == "weaving" else 0.0))
         for name, time in zip(ON_LOOM, times, strict=True)
     ]
-    return [*on_loom, *finishing_steps(rates, area)]
+    return [*on_loom, *finishing_steps(rates, area, carved)]
 
 
-def finishing_steps(rates: CostRates, area: float) -> tuple[MakingStep, ...]:
-    """The steps of making of a carpet of an area [m^2] off the loom, in order."""
+def finishing_steps(rates: CostRates, area: float, carved: float = 0.0) -> tuple[MakingStep, ...]:
+    """The steps of making of a carpet of an area [m^2] off the loom, in order.
+
+    carved  length of its carved lines [m]
+    """
+    time = carved / rates.carving_speed
     return (
         MakingStep("inspection", rates.inspection_time * area, rates.inspection * area),
         MakingStep("shearing", rates.shearing_time * area, rates.shearing * area),
+        *([MakingStep("carving", time, rates.wage * time)] if carved else []),
         MakingStep("washing", rates.washing_time, rates.washing * area),
     )

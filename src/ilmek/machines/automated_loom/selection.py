@@ -59,7 +59,7 @@ many more where each shuts out others.
 """
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def design(params: AutomatedLoomParams) -> LoomDesign:
     """The loom for a carpet. Where no loom keeps every limit, the one that misses them least of those designed.
 

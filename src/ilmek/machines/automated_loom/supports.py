@@ -140,11 +140,13 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     return LoomSupports(post, height, force, across, tube, loads, None)
 
 
+@lru_cache(maxsize=16)
 def beat_beam(beat: BeatDrive) -> tuple[BeatBeam, complex]:
     """The beam that carries what beats, and its lower corner towards the warps in the side view [m]."""
     return (beat.use.beam, beam_corner(beat.design)) if isinstance(beat.design, BeatUp) else beam_of(beat.design)
 
 
+@lru_cache(maxsize=64)
 def post_for(height: float, force: float, mass: float, least: float, *, across: bool) -> HollowSquare:
     """The lightest section of a post of the beat that keeps its checks and is stiff, else that is strong.
 
@@ -208,9 +210,14 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
 
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     """Section of feet and beams at the floor: the columns', or the largest under the lowest bracket and reducer."""
-    lowest = min(float(plate.nodes.imag.min()) - plate.radius for plate in brackets_of(loom).plates)
-    lowest = min(lowest, loom.side.lower.at.imag - loom.side.reducer)
-    return within(frame.column, lowest - ROOM - loom.side.floor - FOOT)
+    return within(frame.column, _under(loom) - ROOM - loom.side.floor - FOOT)
+
+
+@lru_cache(maxsize=16)
+def _under(loom: LoomDesign) -> float:
+    """The lowest of the brackets and of the lower cylinder's reducer, in the side view [m]."""
+    plates = (float(plate.nodes.imag.min()) - plate.radius for plate in brackets_of(loom).plates)
+    return min(*plates, loom.side.lower.at.imag - loom.side.reducer)
 
 
 def within(section: HollowSquare, room: float) -> HollowSquare:

@@ -4,7 +4,6 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -29,7 +28,7 @@ from ilmek.machines.knotting_four_bar.sides import KnottingSides, both_sides
 from ilmek.machines.knotting_four_bar.strength import four_bar_strength
 from ilmek.machines.linkage_strength import LinkageStrength, bore_for, smallest_pin
 from ilmek.machines.strength_params import StrengthParams
-from ilmek.records import computed, group, record, result
+from ilmek.records import JsonObject, computed, group, record, result
 from ilmek.synthesis.three_poses import ThreePoseSynthesis, synthesised
 from ilmek.units import deg, format_quantity, turn
 
@@ -234,9 +233,7 @@ def parameters(design: KnottingFourBar) -> KnottingFourBarParams:
     if design.posed is None:
         return design.params
     found = design.posed.synthesis
-    own: dict[str, Any] = {
-        field.name: getattr(design.params, field.name) for field in dataclasses.fields(design.params)
-    }
+    own: JsonObject = {field.name: getattr(design.params, field.name) for field in dataclasses.fields(design.params)}
     return PosedParams(**{**own, "poses": found.poses.text, "ground_angle": found.ground_angle})
 
 

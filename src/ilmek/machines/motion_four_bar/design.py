@@ -13,7 +13,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.params.text_lists import BodyPoses, Bounds
 from ilmek.progress import SILENT, Progress
-from ilmek.records import computed, record, result
+from ilmek.records import JsonObject, computed, record, result
 from ilmek.report import Json
 from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve
 from ilmek.synthesis.burmester.links import Guide, arms_of_pins, arms_of_pivots, arms_through_five_poses, pair
@@ -89,7 +89,7 @@ class MotionFourBar(FourBarDesign):
 
 def _link(guide: Guide) -> Json:
     """A link; None for a pivot, pin or length that is infinite or free."""
-    sizes: dict[str, Any] = {"pivot": guide.pivot, "pin": guide.pin, "length": guide.length}
+    sizes: JsonObject = {"pivot": guide.pivot, "pin": guide.pin, "length": guide.length}
     return {"kind": str(guide.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
 
 

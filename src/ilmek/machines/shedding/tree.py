@@ -276,6 +276,7 @@ def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: fl
     return replace(made, yarns=radius > shaft.base_radius, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
 
 
+@lru_cache(maxsize=32)
 def reed(design: SheddingDesign, index: int) -> Reed | None:
     """The reed of a shaft; None where guide cams turn."""
     return reed_of(design.shafts[index], design.params.cloth.warps, bearing_inner(design, index))

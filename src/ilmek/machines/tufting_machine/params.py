@@ -99,9 +99,9 @@ class TuftedCarpetParams(Params):
     @property
     def grid(self) -> TuftGrid:
         """Distances, heights and backing of its tufts."""
-        pattern = self.pattern
+        pattern, low = self.pattern, self.pile_height if self.low_height is None else self.low_height
         return TuftGrid(
-            self.gauge, self.stitch, self.pile_height, pattern.hidden, self.backing_thickness, self.back_stitch
+            self.gauge, self.stitch, self.pile_height, low, pattern.hidden, self.backing_thickness, self.back_stitch
         )
 
     def check_together(self) -> None:

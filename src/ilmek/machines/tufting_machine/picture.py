@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ilmek.arrays import UInt8
+from ilmek.arrays import Float, UInt8
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.layout import layout
@@ -17,7 +17,7 @@ from ilmek.machines.tufting_machine.price import tufting_price
 from ilmek.records import JsonObject, computed, record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm, turn
-from ilmek.weaving.tufting.programme import TuftProgramme
+from ilmek.weaving.tufting.programme import BARE, TuftProgramme
 from ilmek.weaving.tufting.twin import TuftedFace
 from ilmek.weaving.tufts import Cone
 
@@ -29,7 +29,8 @@ FLAT = 0.1 * mm
 class TuftedPicture:
     """A programme, what the twin tufts by it, and the machine.
 
-    labels   colour that each place is to have, row 0 at the top       cones     by the number of each colour
+    labels   colour that each place is to have, row 0 at the top; BARE: none      cones  by the number of each colour
+    heights  of the loops of each place [m], (rows, columns)
     knotted  the cost of the same carpet on the loom, its yarn included; None: not known
     deadline for the whole carpet [s]
     """
@@ -38,6 +39,7 @@ class TuftedPicture:
     programme: TuftProgramme
     face: TuftedFace
     labels: UInt8[np.ndarray, "rows columns"]
+    heights: Float[np.ndarray, "rows columns"]
     cones: tuple[Cone, ...]
     knotted: float | None
     deadline: float | None
@@ -54,7 +56,7 @@ class TuftedPicture:
     @computed("", "tufts and yarn of each colour, in the order of the creel")
     def tufting_colours(self) -> list[JsonObject]:
         """Name, tufts, yarn [m], mass [kg], price."""
-        tufts = np.bincount(self.labels.ravel(), minlength=len(self.cones)).tolist()
+        tufts = np.bincount(self.labels[self.labels != BARE], minlength=len(self.cones)).tolist()
         columns = zip(self.cones, tufts, self.face.yarn.tolist(), self.masses, strict=True)
         return [
             {"name": cone.name, "tufts": number, "yarn": yarn, "mass": mass, "price": cone.price_of(mass)}
@@ -78,7 +80,7 @@ class TuftedPicture:
         aisle, (first, last) = 2 * params.cost.aisle, laid.ends
         return CarpetCost(
             rates=params.cost,
-            knots=self.labels.size,
+            knots=int(np.count_nonzero(self.labels != BARE)),
             area=self.area,
             time=self.time,
             energy=power * self.time * params.running,
@@ -106,19 +108,18 @@ class TuftedPicture:
 
     @property
     def wrong(self) -> int:
-        """Places without one loop of their colour in sight."""
-        return int(np.count_nonzero((self.face.colours != self.labels) | (self.face.number != 1)))
+        """Places without one loop of their colour in sight, and those with one that are to have none."""
+        return int(np.count_nonzero((self.face.colours != self.labels) | (self.face.number != (self.labels != BARE))))
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Each tuft in its colour, the height of the pile, deadline."""
-        low, high = self.face.seen
-        height, source = self.programme.grid.height, "twin of the machine, by the programme"
-        apart = max(height - low, high - height)
+        low, source = self.programme.grid.low, "twin of the machine, by the programme"
+        apart = float(np.nanmax(abs(self.face.heights - self.heights), initial=0.0))
         checks = (
             at_most("tufts off their colour", self.wrong, 0, "1", source).with_cure("set a lower pattern.hidden"),
             at_most("pile off its height", apart, FLAT, "mm", source).with_cure("set a higher pile_height"),
-            at_least("pile over the hidden loops", height - self.face.hidden, height / 2, "mm", source).with_cure(
+            at_least("pile over the hidden loops", low - self.face.hidden, low / 2, "mm", source).with_cure(
                 "set a lower pattern.hidden"
             ),
         )

@@ -310,6 +310,7 @@ def bearings_offered() -> tuple[RollingBearing, ...]:
     return find_bearing(THESIS_BEARING), *(one for one in by_bore if one.kind != INSERT or one.flange)
 
 
+@lru_cache(maxsize=256)
 def bearing_checks(
     params: WarpTensionParams, bearing: RollingBearing, reaction: float, torque: float, slope: float
 ) -> tuple[Check, ...]:

@@ -6,6 +6,7 @@ Each cylinder has its own axes: z along it, 0 in the middle of its width, the dr
 import cmath
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -171,6 +172,7 @@ def _on_bracket(params: WarpTensionParams, drive: tuple[Part, ...], far: float) 
     )
 
 
+@lru_cache(maxsize=16)
 def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     """The tubes of upper and lower cylinder, which are alike [thesis 3.1], and of the spacer."""
     steel = replace(MATERIALS["structural steel"], density=design.params.density)
@@ -191,6 +193,7 @@ def winding_reducer(design: WarpTensionDesign) -> Part:
     return _drives(design)[UPPER][0]
 
 
+@lru_cache(maxsize=16)
 def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
     """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle.
 

@@ -64,6 +64,11 @@ def drive_front(weaver: Weaver) -> float:
     return reducer_at(weaver).real + _face(weaver) / 2
 
 
+def drive_top(weaver: Weaver) -> float:
+    """The uppermost y of the reducer [m]."""
+    return reducer_at(weaver).imag + catalogue.REDUCER_LENGTH * _face(weaver) / 2
+
+
 def reducer_left(weaver: Weaver) -> float:
     """The x of the reducer's left side, beside the belt [m]."""
     return belt_station(weaver) - BEFORE_BELT - _face(weaver)

@@ -8,7 +8,6 @@ carriage needs a wider motor than has room steps more slowly.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT
 from ilmek.elements.duty import MARGIN
@@ -21,6 +20,7 @@ from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import tools_height
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.machines.weaver.widths import STATIONS
+from ilmek.records import JsonObject
 from ilmek.units import g, mm
 
 PLATES = (8 * mm, 10 * mm, 12 * mm, 15 * mm, 20 * mm)
@@ -41,7 +41,7 @@ GREATEST = {
 """The greatest of each size [m, kg], where a check fails; assumed by this project."""
 
 
-def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
+def larger_sizes(weaver: Weaver) -> Mapping[str, object]:
     """The parameters of a head that its loads need larger, by name; empty where all are enough."""
     params, own = weaver.params, weaver.params.opener
     height = min(max(own.height, tools_height(weaver)), max(own.height, GREATEST["height"]))
@@ -53,7 +53,7 @@ def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
         "sley_stroke": own.front_span + height + own.plate,
     }
     sizes = {name: min(size, GREATEST[name]) for name, size in needed.items()}
-    more: dict[str, Any] = {name: size for name, size in sizes.items() if size > getattr(params, name)}
+    more: JsonObject = {name: size for name, size in sizes.items() if size > getattr(params, name)}
     if height > own.height:
         back = max(own.back_span + own.height - height, own.front_span)
         more["opener"] = replace(own, height=height, back_span=back)

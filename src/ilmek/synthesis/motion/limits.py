@@ -8,13 +8,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import field, replace
-from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.params.text_lists import Bounds
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.synthesis.burmester.constant_distance import TaskFrame
 from ilmek.synthesis.candidate import Candidate, task_rotation
 from ilmek.synthesis.filters import Filters, defects
@@ -133,7 +132,7 @@ class MotionLimit(ABC):
         """The limits with this one of another value."""
         if hasattr(limits.filters, self.name):
             return replace(limits, filters=replace(limits.filters, **{self.name: value}))  # type: ignore[arg-type]
-        changed: dict[str, Any] = {self.name: value}
+        changed: JsonObject = {self.name: value}
         return replace(limits, **changed)
 
 

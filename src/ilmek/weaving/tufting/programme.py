@@ -16,7 +16,7 @@ tuft once more, which sets their last loops; what they tuft then is beyond the e
 
 import numpy as np
 
-from ilmek.arrays import Int, Int32, UInt8
+from ilmek.arrays import Float, Int, Int32, UInt8
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import mm
@@ -24,6 +24,9 @@ from ilmek.weaving.tufts import tuft_yarn
 
 UNIT = 0.01 * mm
 """Unit of a feed [m]."""
+
+BARE = 255
+"""Colour of a place without a loop that is seen."""
 
 OUT = -1
 """Feed of a needle that does not enter the backing."""
@@ -37,13 +40,14 @@ class TuftGrid:
     """Distances, heights and backing of tufts.
 
     gauge   distance of the needles [m]      stitch  distance of the rows of tufts [m]
-    height, hidden   of loops that are to be seen, and of others [m]
+    height, low, hidden   of the highest and lowest loops that are to be seen, and of others [m]
     backing  thickness [m]                   back    yarn on the back over its distance [-]
     """
 
     gauge: float
     stitch: float
     height: float
+    low: float
     hidden: float
     backing: float
     back: float
@@ -84,11 +88,13 @@ def tuft_programme(
     colours: int,
     grid: TuftGrid,
     *,
+    heights: Float[np.ndarray, "rows columns"] | None = None,
     by_needle: bool = False,
     progress: Progress = SILENT,
 ) -> TuftProgramme:
-    """The programme of labels 0 .. colours - 1, the row at the bottom first.
+    """The programme of labels 0 .. colours - 1, BARE: none, the row at the bottom first.
 
+    heights    of the loops at each place [m], (rows, columns); default: all are those of the grid
     by_needle  the needles of the wanted colour alone tuft; False: all do, the others hidden
     """
     rows, columns = labels.shape
@@ -108,6 +114,7 @@ def tuft_programme(
         distance = np.nan_to_num(np.hypot(*(place - last)))
         fed = np.asarray(tuft_yarn(height, grid.backing, distance, grid.back))
         feeds[stroke, enters] = np.rint(fed[enters] / UNIT).astype(np.int32)
-        height = np.where(enters, np.where(wanted, grid.height, grid.hidden), height)
+        own = grid.height if heights is None else heights[row, np.clip(column, 0, columns - 1)]
+        height = np.where(enters, np.where(wanted, own, grid.hidden), height)
         last = np.where(enters, place, last)
     return TuftProgramme(grid, rows, columns, threads, 1 - colours, shifts, grid.stitch / colours, feeds)

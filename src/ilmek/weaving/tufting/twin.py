@@ -5,7 +5,7 @@ next stitch of its needle draws what it is not fed out of it:
 
     H = h - (2 (h + t) + k d - l) / 2        l fed, d from the stitch before, h by the loopers
 
-The loops of a place cover each other; the one higher than half of h is seen.
+The loops of a place cover each other; the one higher than half of the lowest that is to be seen is seen.
 """
 
 import numpy as np
@@ -13,11 +13,8 @@ import numpy as np
 from ilmek.arrays import Float, Int, UInt8
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.weaving.tufting.programme import OUT, STEPS, UNIT, TuftProgramme
+from ilmek.weaving.tufting.programme import BARE, OUT, STEPS, UNIT, TuftProgramme
 from ilmek.weaving.tufts import tuft_yarn
-
-BARE = 255
-"""Colour of a place without a loop that is seen."""
 
 
 @record
@@ -25,13 +22,13 @@ class TuftedFace:
     """The face of a carpet, row 0 at the top.
 
     colours  seen at each place; BARE: none             number   of loops that are seen at each place
-    seen     least and greatest height of these [m]     hidden   greatest height of the others [m]
+    heights  of these [m]; NaN: none                    hidden   greatest height of the others [m]
     loops    of all needles                             yarn     of each colour, by needle [m]
     """
 
     colours: UInt8[np.ndarray, "rows columns"]
     number: Int[np.ndarray, "rows columns"]
-    seen: tuple[float, float]
+    heights: Float[np.ndarray, "rows columns"]
     hidden: float
     loops: int
     yarn: Float[np.ndarray, " colours"]
@@ -44,7 +41,8 @@ def tufted_face(programme: TuftProgramme, progress: Progress = SILENT) -> Tufted
     number = np.zeros(colours.shape, dtype=np.int64)
     across, along = (np.full(needles.size, np.nan) for _ in range(2))  # the last stitch of each needle [m]
     fed = np.zeros(needles.size)
-    low, high, hidden, loops, travel = np.inf, 0.0, 0.0, 0, 0.0
+    heights = np.full(colours.shape, np.nan)
+    hidden, loops, travel = 0.0, 0, 0.0
     for stroke, shift in enumerate(programme.shifts.tolist()):
         if stroke % STEPS == 0:
             progress(stroke / programme.shifts.size)
@@ -57,18 +55,17 @@ def tufted_face(programme: TuftProgramme, progress: Progress = SILENT) -> Tufted
         height, needle = grid.height - drawn / 2, own[again]
         row = np.floor(along[needle] / grid.stitch + 1e-6).astype(int)
         column = np.rint(across[needle] / grid.gauge).astype(int)
-        in_sight = height > grid.height / 2
+        in_sight = height > grid.low / 2
         if not in_sight.all():
             hidden = max(hidden, float(height[~in_sight].max()))
         inside = in_sight & (row < programme.rows) & (column >= 0) & (column < programme.columns)
-        if inside.any():
-            low, high = min(low, float(height[inside].min())), max(high, float(height[inside].max()))
         place = row[inside], column[inside]
         colours[place] = programme.threads[needle[inside]]
+        heights[place] = height[inside]
         np.add.at(number, place, 1)
         across[own], along[own] = x, travel
         fed[own] += length
         loops += own.size
         travel += programme.advance
     yarn = np.bincount(programme.threads, weights=fed)
-    return TuftedFace(colours[::-1], number[::-1], (low, high), hidden, loops, yarn)
+    return TuftedFace(colours[::-1], number[::-1], heights[::-1], hidden, loops, yarn)

@@ -1,7 +1,6 @@
 /** Texts of the view "cyclogram". */
 export default {
   title: "Cyclogram",
-  lead: "Motions over the master angle: drag their beginnings, ends and levels.",
   file: "Cyclogram",
   ofMachine: "From a machine",
   ofMachineHelp: "The machine is designed with its default settings, and its cyclogram is written into the project.",
@@ -105,6 +104,4 @@ export default {
   apart: "{apart} apart, at least {gap}",
   holds: "holds",
   violated: "violated",
-  failing: "{count} of {all} violated",
-  allHold: "All hold",
 } as const;

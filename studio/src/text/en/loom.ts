@@ -96,7 +96,6 @@ export default {
   atOfBeat: "at {angle} of two beats",
   headsBeside: "heads {shift} beside the middle of their shares",
   always: "at all angles",
-  export: "Files",
   glb: "Save as GLB",
   glbSaved: "loom.glb is saved",
   sound: "Every check holds.",

@@ -1,7 +1,6 @@
 /** Texts of the view "synthesis". */
 export default {
   title: "Synthesis",
-  lead: "Click points, poses or a function; the four-bars that do it follow.",
   file: "Task",
   new: "New task",
   create: "Create",

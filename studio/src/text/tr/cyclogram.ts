@@ -3,7 +3,6 @@ import type en from "../en/cyclogram";
 
 export default {
   title: "Çevrim diyagramı",
-  lead: "Ana mil açısı üzerinde hareketler: başlangıç, bitiş ve düzeylerini sürükleyin.",
   file: "Diyagram",
   ofMachine: "Makineden al",
   ofMachineHelp: "Makine varsayılan ayarlarıyla tasarlanır ve çevrim diyagramı projeye yazılır.",
@@ -107,6 +106,4 @@ export default {
   apart: "{apart} ayrık, en az {gap}",
   holds: "sağlanıyor",
   violated: "sağlanmıyor",
-  failing: "{all} kuraldan {count} tanesi sağlanmıyor",
-  allHold: "Hepsi sağlanıyor",
 } as const satisfies Same<typeof en>;

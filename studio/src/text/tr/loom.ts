@@ -97,7 +97,6 @@ export default {
   atOfBeat: "iki vuruşun {angle} açısında",
   headsBeside: "başlıklar paylarının ortasından {shift} ötede",
   always: "her açıda",
-  export: "Dosyalar",
   glb: "GLB olarak kaydet",
   glbSaved: "loom.glb kaydedildi",
   sound: "Bütün denetimler sağlanıyor.",

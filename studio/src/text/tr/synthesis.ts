@@ -3,7 +3,6 @@ import type en from "../en/synthesis";
 
 export default {
   title: "Sentez",
-  lead: "Noktaları, konumları ya da bir fonksiyonu tıklayın; bunu sağlayan dört çubuk mekanizmaları listelenir.",
   file: "Görev",
   new: "Yeni görev",
   create: "Oluştur",

@@ -1,7 +1,7 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { t } from "../../text";
-import { Button, IconButton } from "../../ui";
+import { Button, Zoom } from "../../ui";
 import { BorderHandles } from "./border-handles";
 import { Compare, CompareLine } from "./compare";
 import {
@@ -19,8 +19,6 @@ import { Marks } from "./marks";
 import type { CarpetModel } from "./model";
 import { listenersOf, useHand } from "./use-hand";
 import { useRenderer } from "./use-renderer";
-
-const ZOOM = 1.4;
 
 /** The chart: zoom from the whole carpet to single knots, tools, row and knot under the pointer or the cursor. */
 export function ChartCanvas({ model }: { model: CarpetModel }) {
@@ -100,16 +98,12 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
         </div>
         {chart !== null && <CompareLine model={model} />}
         {chart !== null && <BorderHandles model={model} grid={chart.grid} view={view.value} size={size.value} />}
-        <div class="carpet-zoom">
-          <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => zoom(ZOOM)} />
-          <IconButton icon="minus" label={t("figure.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
-          <IconButton
-            icon="fit"
-            label={t("figure.zoomFit")}
-            onClick={() => {
-              if (chart !== null) view.value = wholeView(chart.grid, size.peek());
-            }}
-          />
+        <Zoom
+          onZoom={zoom}
+          onFit={() => {
+            if (chart !== null) view.value = wholeView(chart.grid, size.peek());
+          }}
+        >
           <Button
             size="small"
             onClick={() => {
@@ -119,7 +113,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
           >
             {t("carpet.zoomKnots")}
           </Button>
-        </div>
+        </Zoom>
       </div>
       <p class="carpet-status" role="status">
         <KnotText model={model} knot={hover.value ?? cursor.value} />

@@ -1,23 +1,24 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { address, goTo, type ViewProps } from "../../app/routes";
+import { goTo, type ViewProps } from "../../app/routes";
 import { remember } from "../../app/settings";
-import { FileCommand, project, refreshProject, SaveState, useDocument } from "../../project";
-import { formatNumber, t } from "../../text";
-import { Button, Select, Split, Tabs } from "../../ui";
-import { Bill } from "./bill";
+import { project, useDocument, ViewHead } from "../../project";
+import { t } from "../../text";
+import { Button, later, Select, Split, Tabs, Verdict } from "../../ui";
 import { ChartCanvas } from "./chart-canvas";
-import { Edits } from "./edits";
 import { type CarpetModel, modelOf, type Recipe } from "./model";
 import { ChooseFile, takePicture } from "./picture";
 import { recipesOf, Settings } from "./settings";
-import { Shelf } from "./shelf";
 import { Tools } from "./tools";
-import { Weaver } from "./weaver";
-import { Yarns } from "./yarns";
 import "./carpet.css";
 import "./assignment.css";
 import "./shelf.css";
+
+const Bill = later(async () => (await import("./bill")).Bill);
+const Edits = later(async () => (await import("./edits")).Edits);
+const Shelf = later(async () => (await import("./shelf")).Shelf);
+const Weaver = later(async () => (await import("./weaver")).Weaver);
+const Yarns = later(async () => (await import("./yarns")).Yarns);
 
 /** The carpet: from a picture to the chart, its yarns and its rows. */
 export default function Carpet({ name }: ViewProps) {
@@ -34,10 +35,7 @@ function RecipeView({ path }: { path: string }) {
   const isMissing = document.saved.value === "missing";
   const isRead = document.data.value !== null || document.saved.value === "loading";
   useReady(model.chart.value !== null || model.problem.value !== null || document.error.value !== null || isMissing);
-  useEffect(() => {
-    void refreshProject().catch(() => undefined);
-    return model.follow();
-  }, [model]);
+  useEffect(() => model.follow(), [model]);
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setDragging(false);
@@ -60,12 +58,16 @@ function RecipeView({ path }: { path: string }) {
       onDragLeave={() => setDragging(false)}
       onDrop={drop}
     >
-      <header class="ui-view-head carpet-head">
-        <h1>{t("carpet.title")}</h1>
+      <ViewHead
+        title={t("carpet.title")}
+        document={document}
+        verdict={<Verdict checks={model.chart.value?.about.checks ?? []} />}
+        command={{ kind: "carpet", path }}
+      >
         <RecipeChoice path={path} />
-        <SaveState document={document as never} textAddress={address("files", document.path)} />
-        <Timing model={model} />
+        <Size model={model} />
         <Button
+          icon="loom"
           disabled={!isRead}
           pressed={model.weaving.value}
           onClick={() => {
@@ -74,7 +76,7 @@ function RecipeView({ path }: { path: string }) {
         >
           {t("carpet.weaver")}
         </Button>
-      </header>
+      </ViewHead>
       <Problem model={model} />
       {!isRead ? (
         <NoRecipe model={model} isMissing={isMissing} />
@@ -145,7 +147,6 @@ function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) =
         {tab === "edits" && <Edits model={model} />}
         {tab === "bill" && <Bill model={model} onWeave={onWeave} />}
       </Tabs>
-      <FileCommand kind="carpet" path={model.path} />
     </div>
   );
 }
@@ -164,15 +165,14 @@ function RecipeChoice({ path }: { path: string }) {
   );
 }
 
-function Timing({ model }: { model: CarpetModel }) {
+/** Knots of the chart; whether it is a draft. */
+function Size({ model }: { model: CarpetModel }) {
   const chart = model.chart.value;
   if (chart === null) return null;
   const { rows, columns, draft } = chart.about;
-  const waited = formatNumber(model.waited.value, 3);
-  const kind = draft ? t("carpet.draft") : t("carpet.exactChart");
   return (
     <p class="carpet-timing" aria-live="off">
-      {model.busy.value ? t("carpet.making") : t("carpet.timing", { rows, columns, kind, waited })}
+      {model.busy.value ? t("carpet.making") : t(draft ? "carpet.draft" : "carpet.charted", { rows, columns })}
     </p>
   );
 }

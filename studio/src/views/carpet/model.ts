@@ -47,7 +47,6 @@ export class CarpetModel {
   readonly problem = signal<ApiError | null>(null);
   readonly busy = signal(false);
   /** Time that the last chart took, from the change to the answer [ms]. */
-  readonly waited = signal(0);
   readonly tool = signal<Tool>("pan");
   /** Name of the yarn that the tools give. */
   readonly yarn = signal("");
@@ -84,18 +83,13 @@ export class CarpetModel {
     this.yarnIndex = computed(
       () => this.chart.value?.about.yarns.findIndex((yarn) => yarn.name === this.yarn.value) ?? -1,
     );
-    let began = 0;
     this.#send = latest(
       ({ recipe, draft }: { recipe: Recipe; draft: boolean }, abort) => {
         this.busy.value = true;
-        began = performance.now();
         const source = this.source.peek()?.key ?? "";
         return postPacked<ChartAnswer>("/carpet/chart", { recipe, path, draft, source }, abort);
       },
-      (answer, { recipe }) => {
-        this.waited.value = performance.now() - began;
-        this.#take(answer, recipe);
-      },
+      (answer, { recipe }) => this.#take(answer, recipe),
       (error) => {
         this.busy.value = false;
         this.problem.value = error instanceof ApiError ? error : null;

@@ -1,12 +1,13 @@
 import { useState } from "preact/hooks";
 import { filesOf } from "../../project";
 import { formatNumber, t } from "../../text";
-import { Button, Select, Slider } from "../../ui";
+import { Button, later, Select, Slider } from "../../ui";
 import type { CarpetModel } from "./model";
 import { Picture } from "./picture";
-import { SourceDialog } from "./source";
-import { SpecksPanel } from "./specks-panel";
 import { type SettingProps, TextSetting } from "./text-setting";
+
+const SourceDialog = later(async () => (await import("./source")).SourceDialog);
+const SpecksPanel = later(async () => (await import("./specks-panel")).SpecksPanel);
 
 /** What the carpet is made of and how its picture is read: the keys of the recipe. */
 export function Settings({ model }: { model: CarpetModel }) {

@@ -2,16 +2,16 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { ShownTrack } from "../../api/messages";
 import { useReady } from "../../app/ready";
-import { address, goTo } from "../../app/routes";
-import { FileCommand, SaveState, useDocument } from "../../project";
-import { formatNumber, t } from "../../text";
-import { Button, FaultNote, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
+import { goTo } from "../../app/routes";
+import { useDocument, ViewHead } from "../../project";
+import { t } from "../../text";
+import { Button, FaultNote, formatQuantity, QuantityField, quantityText, Segments, Slider, Verdict } from "../../ui";
 import { type Curve, QUANTITIES } from "./curves";
 import { Lanes } from "./lanes";
 import { type CyclogramData, DEGREE, dragged, type Grip, levelStep, TURN, withLevel, withSpan } from "./model";
 import { MotionForm } from "./motion-form";
 import { Readings } from "./readings";
-import { countOf, Rules } from "./rules";
+import { Rules, rulesOf } from "./rules";
 import { Solve } from "./solution";
 import { CyclogramStore } from "./store";
 import { Tracks } from "./tracks";
@@ -66,14 +66,14 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
   };
   return (
     <>
-      <header class="ui-view-head">
-        <div>
-          <h1>{t("cyclogram.title")}</h1>
-          <p>{t("cyclogram.lead")}</p>
-        </div>
-        <div class="ui-row cyclogram-files">{head}</div>
-        <SaveState document={file as never} textAddress={address("files", file.path)} />
-      </header>
+      <ViewHead
+        title={t("cyclogram.title")}
+        document={file}
+        verdict={shown && <Verdict checks={rulesOf(shown)} />}
+        command={{ kind: "cyclogram", path, options: compared ? { solve: compared.solution.goal } : {} }}
+      >
+        {head}
+      </ViewHead>
       {/* The error of the file is shown beside its state. */}
       <FaultNote fault={file.error.value === null ? store.fault.value : null} />
       {shown === null && file.error.value !== null && (
@@ -89,16 +89,13 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
       {data !== null && shown !== null && (
         <div class="cyclogram-columns">
           <div class="ui-stack cyclogram-main">
-            <div class="ui-row">
-              <Segments
-                label={t("cyclogram.curve")}
-                labelHidden
-                value={curve}
-                choices={QUANTITIES.map((value) => ({ value, label: t(`cyclogram.${value}`) }))}
-                onChange={setCurve}
-              />
-              <Verdict {...countOf(shown)} />
-            </div>
+            <Segments
+              label={t("cyclogram.curve")}
+              labelHidden
+              value={curve}
+              choices={QUANTITIES.map((value) => ({ value, label: t(`cyclogram.${value}`) }))}
+              onChange={setCurve}
+            />
             <div class="cyclogram-scroll">
               <Lanes
                 shown={shown}
@@ -150,18 +147,9 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
             <Solve store={store} data={data} onTake={change} />
             <h2>{t("cyclogram.rules")}</h2>
             <Rules data={data} shown={shown} locked={compared !== null} onChange={change} />
-            <FileCommand kind="cyclogram" path={path} options={compared ? { solve: compared.solution.goal } : {}} />
           </div>
         </div>
       )}
     </>
-  );
-}
-
-function Verdict({ all, bad }: { all: number; bad: number }) {
-  return (
-    <span class={`ui-badge ${bad ? "bad" : "good"}`} role="status">
-      {bad ? t("cyclogram.failing", { count: bad, all: formatNumber(all) }) : t("cyclogram.allHold")}
-    </span>
   );
 }

@@ -3,7 +3,7 @@ import type { MachineCyclograms } from "../../api/messages";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
+import { filesOf, freePath, newFile, project, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button, Dialog, Progress, Select, toast } from "../../ui";
 import { CyclogramEditor } from "./editor";
@@ -30,9 +30,6 @@ function stemOf(path: string): string {
 /** Motions over the master angle: files of the project, or the cyclograms of a machine. */
 export default function Cyclogram({ name }: ViewProps) {
   const [opening, setOpening] = useState(false);
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-  }, []);
   useReady(project.value !== null && filesOf("cyclogram").length === 0);
   const files = filesOf("cyclogram");
   const first = files.find((one) => stemOf(one.path) === "press") ?? files[0];
@@ -58,12 +55,11 @@ export default function Cyclogram({ name }: ViewProps) {
   return (
     <div class="cyclogram">
       {stem === "" || stem.includes(":") ? (
-        <div class="ui-stack">
-          <h1>{t("cyclogram.title")}</h1>
+        <>
+          <ViewHead title={t("cyclogram.title")}>{head}</ViewHead>
           {stem === "" && <p>{project.value === null ? t("app.loading") : t("cyclogram.noFile")}</p>}
           {stem !== "" && <Import key={stem} source={stem} />}
-          <div class="ui-row">{head}</div>
-        </div>
+        </>
       ) : (
         <CyclogramEditor key={stem} path={`${FOLDER}/${stem}.toml`} head={head} />
       )}

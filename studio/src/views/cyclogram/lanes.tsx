@@ -21,30 +21,34 @@ interface LanesProps {
   onChoose: (motion: { track: string; motion: string }) => void;
 }
 
-/** Height of a lane, of its head, and of the axis below all [px]. */
-export const LANE = 104;
+/** Height of a lane, least and most, of its head, and of the axis below all [px]. */
+const LANES = [104, 300] as const;
 const HEAD = 34;
 const AXIS = 22;
 const SIDE = 10;
 
-export interface Scale {
+interface Scale {
   width: number;
+  /** Height of a lane [px]. */
+  lane: number;
   x: (angle: number) => number;
   angle: (x: number) => number;
 }
 
-export function scaleOf(width: number): Scale {
+/** The scale for a width and a number of lanes, which fill half of the window. */
+function scaleOf(width: number, lanes: number): Scale {
   const room = Math.max(width - 2 * SIDE, 50);
-  return { width, x: (angle) => SIDE + (room * angle) / TURN, angle: (x) => ((x - SIDE) / room) * TURN };
+  const lane = Math.min(Math.max(innerHeight / 2 / lanes, LANES[0]), LANES[1]);
+  return { width, lane, x: (angle) => SIDE + (room * angle) / TURN, angle: (x) => ((x - SIDE) / room) * TURN };
 }
 
 /** y of a value in a lane [px]. */
-export function levelScale(lane: number, range: Range): { y: (value: number) => number; value: (y: number) => number } {
-  const [top, bottom] = [lane * LANE + HEAD, (lane + 1) * LANE - 8];
+function levelScale(lane: number, range: Range, height: number) {
+  const [top, bottom] = [lane * height + HEAD, (lane + 1) * height - 8];
   const room = bottom - top;
   return {
-    y: (value) => bottom - (room * (value - range.low)) / (range.high - range.low),
-    value: (y) => range.low + ((bottom - y) / room) * (range.high - range.low),
+    y: (value: number) => bottom - (room * (value - range.low)) / (range.high - range.low),
+    value: (y: number) => range.low + ((bottom - y) / room) * (range.high - range.low),
   };
 }
 
@@ -63,9 +67,9 @@ export function Lanes(props: LanesProps) {
   const { tracks, relations } = shown.about;
   const svg = useRef<SVGSVGElement>(null);
   const size = useSize(svg, { width: 900, height: 500 });
-  const scale = scaleOf(size.width);
+  const scale = scaleOf(size.width, tracks.length);
   const drag = useRef<Drag | null>(null);
-  const height = tracks.length * LANE + AXIS;
+  const height = tracks.length * scale.lane + AXIS;
   const at = (event: PointerEvent) => {
     const box = svg.current?.getBoundingClientRect();
     return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
@@ -78,7 +82,8 @@ export function Lanes(props: LanesProps) {
         props.onCursor(Math.min(Math.max(scale.angle(to.x), 0), TURN));
       return;
     }
-    if (now.grip === "level") props.onLevel(now.track, now.motion, levelScale(now.lane, now.range).value(to.y));
+    if (now.grip === "level")
+      props.onLevel(now.track, now.motion, levelScale(now.lane, now.range, scale.lane).value(to.y));
     else props.onSpan(now.track, now.motion, now.grip, scale.angle(to.x) - scale.angle(now.from.x));
   };
   const up = () => {
@@ -166,8 +171,12 @@ function Axis({ scale, lanes }: { scale: Scale; lanes: number }) {
         const x = scale.x(mark * DEGREE);
         return (
           <g key={mark}>
-            <line x1={x} x2={x} y1={0} y2={lanes * LANE} />
-            <text x={x} y={lanes * LANE + 16} text-anchor={mark === 0 ? "start" : mark === 360 ? "end" : "middle"}>
+            <line x1={x} x2={x} y1={0} y2={lanes * scale.lane} />
+            <text
+              x={x}
+              y={lanes * scale.lane + 16}
+              text-anchor={mark === 0 ? "start" : mark === 360 ? "end" : "middle"}
+            >
               {mark}°
             </text>
           </g>
@@ -196,8 +205,8 @@ function Lane(props: LaneProps) {
   const { lane, track, curves, earlier, scale, curve, shown } = props;
   if (curves === undefined) return null;
   const range = joined(rangeOf(curves[curve], curve), earlier && rangeOf(earlier[curve], curve));
-  const level = levelScale(lane, range);
-  const top = lane * LANE;
+  const level = levelScale(lane, range, scale.lane);
+  const top = lane * scale.lane;
   const unit = unitOf(track.shown_unit, curve);
   const pressLevel = (part: ShownTrack["motions"][number]) => (event: KeyboardEvent) => {
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -244,7 +253,7 @@ function Lane(props: LaneProps) {
       ))}
       {track.events.map((event) => (
         <g key={event.name} class="event">
-          <path d={`M${scale.x(event.angle)} ${top + LANE - 9}l-4 8h8z`} />
+          <path d={`M${scale.x(event.angle)} ${top + scale.lane - 9}l-4 8h8z`} />
           <title>{`${event.name}: ${formatQuantity(event.angle, "deg")}`}</title>
         </g>
       ))}
@@ -268,7 +277,7 @@ function Blocks(props: BlockProps) {
   const { lane, track, scale, motion, span, range, take, onSpan, onEnd, locked } = props;
   const chosen = props.chosen.track === track.name && props.chosen.motion === motion;
   const choose = () => props.onChoose({ track: track.name, motion });
-  const y = lane * LANE + 18;
+  const y = lane * scale.lane + 18;
   const pieces = withinTurn([[span.start, span.end]]);
   const press = (grip: Grip) => (event: KeyboardEvent) => {
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -357,8 +366,8 @@ function degrees(angle: number): string {
 
 /** The stays of a track in zones of exclusions; where both are present it is hatched, with a text. */
 function Shades({ lane, track, shown, scale }: { lane: number; track: string; shown: Shown; scale: Scale }) {
-  const top = lane * LANE + HEAD;
-  const height = LANE - HEAD - 2;
+  const top = lane * scale.lane + HEAD;
+  const height = scale.lane - HEAD - 2;
   const rect = (key: string, [from, to]: [number, number], kind: string) => (
     <rect
       key={key}
@@ -401,7 +410,7 @@ function Arrow({ one, shown, scale }: { one: ShownRelation; shown: Shown; scale:
   const [from, to] = [lane(one.first.track), lane(one.then.track)];
   if (from < 0 || to < 0 || one.turns !== 0) return null;
   const [x1, x2] = [scale.x(one.first.angle % TURN), scale.x(one.then.angle % TURN)];
-  const y = (at: number) => at * LANE + 24;
+  const y = (at: number) => at * scale.lane + 24;
   const bow = from === to ? `C${x1} ${y(from) - 20} ${x2} ${y(to) - 20} ${x2} ${y(to)}` : `L${x2} ${y(to)}`;
   return (
     <g class={`relation ${one.ok ? "" : "bad"}`}>

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { formatNumber, t } from "../../text";
-import { Button, Icon, IconButton } from "../../ui";
+import { Button, Icon, IconButton, type Judged } from "../../ui";
 import type { Shown } from "./curves";
 import { type CyclogramData, DEGREE } from "./model";
 import { ExclusionForm, RelationForm } from "./rule-forms";
@@ -148,10 +148,14 @@ function Missing({ margin }: { margin: number }) {
   return <strong class="cyclogram-missing"> {t("cyclogram.missing", { angle: degrees(-margin) })}</strong>;
 }
 
-/** How many rules there are, and how many are violated. */
-export function countOf({ about }: Shown): { all: number; bad: number } {
-  const rules = [...about.relations, ...about.exclusions, ...about.limits];
-  return { all: rules.length, bad: rules.filter((one) => !one.ok).length };
+/** All rules as checks. */
+export function rulesOf({ about }: Shown): Judged[] {
+  const named = <T extends { label: string; ok: boolean }>(one: T) => ({ ...one, name: one.label });
+  return [
+    ...about.relations.map((one) => ({ ...named(one), value: one.gap, limit: one.least, relation: ">=" })),
+    ...about.exclusions.map((one) => ({ ...named(one), value: one.apart, limit: one.gap, relation: ">=" })),
+    ...about.limits,
+  ];
 }
 
 interface RuleProps {

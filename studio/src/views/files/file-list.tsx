@@ -1,6 +1,7 @@
+import { useState } from "preact/hooks";
 import { type FileSummary, filesOf, openDocuments } from "../../project";
 import { t } from "../../text";
-import { Button, Icon, IconButton } from "../../ui";
+import { Button, Icon, IconButton, SearchField } from "../../ui";
 import { bringBack, create, deleted, problem } from "./changes";
 import { FOLDERS, KINDS, type Kind, stemOf } from "./names";
 import { Pictures } from "./pictures";
@@ -12,8 +13,10 @@ interface ListProps {
 
 /** The project's files by kind; what was deleted can be brought back. */
 export function FileList({ chosen, onChoose }: ListProps) {
+  const [words, setWords] = useState("");
   return (
     <section class="files-list" aria-label={t("files.project")}>
+      <SearchField label={t("files.search")} value={words} onChange={setWords} />
       {problem.value !== "" && (
         <p class="ui-callout bad" role="alert">
           {problem.value}
@@ -34,15 +37,16 @@ export function FileList({ chosen, onChoose }: ListProps) {
         </div>
       ))}
       {KINDS.map((kind) => (
-        <KindOfFiles key={kind} kind={kind} chosen={chosen} onChoose={onChoose} />
+        <KindOfFiles key={kind} kind={kind} words={words} chosen={chosen} onChoose={onChoose} />
       ))}
       <Pictures />
     </section>
   );
 }
 
-function KindOfFiles({ kind, chosen, onChoose }: ListProps & { kind: Kind }) {
-  const files = filesOf(kind);
+function KindOfFiles({ kind, words, chosen, onChoose }: ListProps & { kind: Kind; words: string }) {
+  const files = filesOf(kind).filter((file) => file.path.toLowerCase().includes(words.trim().toLowerCase()));
+  if (words !== "" && files.length === 0) return null;
   const add = async () => {
     const path = await create(kind);
     if (path !== "") onChoose(path);

@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { project, projectProblem, refreshProject } from "../../project";
+import { project, projectProblem, refreshProject, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button } from "../../ui";
 import { FileList } from "./file-list";
@@ -11,7 +11,7 @@ import { Written } from "./written";
 import "./files.css";
 
 /** Pages of this width and less show the list or one file, not both. */
-const NARROW = "(max-width: 800px)";
+const NARROW = "(max-width: 899px)";
 
 function choose(path: string): void {
   goTo("files", path);
@@ -28,16 +28,17 @@ export default function Files({ name }: ViewProps) {
   const chosen = named ?? found.files[0];
   return (
     <div class={`files${named ? " detail" : ""}`}>
-      <header class="files-title">
-        <h1>{t("files.title")}</h1>
-        <p class="ui-muted">{found.folder}</p>
+      <ViewHead title={t("files.title")}>
+        <p>{found.folder}</p>
+      </ViewHead>
+      <div class="files-problems">
         <NoProject />
         {(found.problems ?? []).map((problem) => (
           <p key={problem} class="ui-callout bad" role="alert">
             {problem}
           </p>
         ))}
-      </header>
+      </div>
       <FileList chosen={chosen?.path ?? ""} onChoose={choose} />
       <div class="files-side">
         {chosen && <FileSide key={chosen.path} file={chosen} onChoose={choose} />}

@@ -10,6 +10,7 @@ import { keyOf, out, type Writing, write, writings } from "./work";
 /** What can be written of a file: each with what there is of it, how to get it, and how to write it. */
 export function Products({ path, digest }: { path: string; digest: string }) {
   const [products, setProducts] = useState<readonly Product[] | null>(null);
+  const [all, setAll] = useState<AbortController | null>(null);
   useEffect(() => {
     const abort = new AbortController();
     post<ProductList>("/project/products", { path }, abort.signal).then(
@@ -24,7 +25,10 @@ export function Products({ path, digest }: { path: string; digest: string }) {
   const entries = new Map(out.value?.entries.map((entry) => [entry.path, entry]));
   const due = products.filter((one) => !isFresh(entries.get(one.target)) && !isRunning(path, one.name));
   const writeAll = async () => {
-    for (const one of due) await write(path, one.name);
+    const own = new AbortController();
+    setAll(own);
+    for (const one of due) if (!own.signal.aborted) await write(path, one.name, own.signal);
+    setAll(null);
   };
   return (
     <section class="ui-stack" aria-labelledby="files-out">
@@ -32,9 +36,9 @@ export function Products({ path, digest }: { path: string; digest: string }) {
         <h3 id="files-out" class="ui-grow">
           {t("files.out")}
         </h3>
-        {due.length > 1 && (
-          <Button size="small" onClick={() => void writeAll()}>
-            {t("files.writeAll", { count: due.length })}
+        {(all !== null || due.length > 1) && (
+          <Button size="small" onClick={() => (all === null ? void writeAll() : all.abort())}>
+            {all === null ? t("files.writeAll", { count: due.length }) : t("ui.cancel")}
           </Button>
         )}
       </div>
@@ -90,7 +94,7 @@ function ProductRow({ path, product, entry }: RowProps) {
       </div>
       {writing !== undefined && <Outcome writing={writing} title={title} />}
       <details class="files-command">
-        <summary>{t("files.command")}</summary>
+        <summary>{t("ui.commands")}</summary>
         <CopyCommand command={product.command} python={product.python} />
       </details>
     </li>

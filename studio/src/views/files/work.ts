@@ -48,11 +48,12 @@ export function followOut(): () => void {
   });
 }
 
-/** Writes a product of a file, as it is now. */
-export async function write(path: string, product: string): Promise<void> {
+/** Writes a product of a file, as it is now; ends where it is cancelled, or what it is a part of. */
+export async function write(path: string, product: string, signal?: AbortSignal): Promise<void> {
   const key = keyOf(path, product);
   if (writings.peek()[key]?.abort !== undefined) return;
   const abort = new AbortController();
+  signal?.addEventListener("abort", () => abort.abort(), { once: true });
   note(key, { stage: "", abort });
   try {
     await openDocuments

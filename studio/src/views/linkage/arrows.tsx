@@ -60,6 +60,7 @@ export function Arrows({ editor, figure, camera, size }: Props) {
               .map((one) => (
                 <text key={one.key} x={one.to.x + 6} y={one.to.y + 14}>
                   {formatQuantity(one.value, unit, 3)}
+                  {kind === "force" && onBody(figure, one.key)}
                 </text>
               ))}
             <g class="legend" transform={`translate(${size.width - 150} ${22 + row * 22})`}>
@@ -91,6 +92,12 @@ function position(figure: Figure, key: string): Vec | undefined {
   const [body, point] = key.split(".");
   const own = figure.bodies.find((one) => one.name === body)?.points.find((one) => one.name === point)?.at;
   return own ?? figure.joints.find((one) => one.name === key || key.startsWith(`${one.name}.`))?.block;
+}
+
+/** The body on which the force of a joint acts: the second one of a pin. */
+function onBody(figure: Figure, key: string): string {
+  const bodies = figure.joints.find((one) => one.name === key)?.bodies ?? [];
+  return bodies.length === 2 ? ` → ${bodies[1]}` : "";
 }
 
 function arrow(

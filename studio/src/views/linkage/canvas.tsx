@@ -7,6 +7,7 @@ import { Arrows } from "./arrows";
 import type { Editor } from "./editor";
 import type { DrawnBody, DrawnJoint, Figure } from "./figure";
 import { type Camera, gridStep, type Size, toScreen, type Vec } from "./geometry";
+import { Loads } from "./loads";
 import { GROUND } from "./mechanism";
 import type { Pointer } from "./pointer";
 import type { Tools } from "./tools";
@@ -33,6 +34,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
       if (width > 0 && height > 0) {
         pointer.size = { width, height };
         setSize({ width, height });
+        if (fit.current && !pointer.hasPointed) pointer.fit();
       }
     });
     watch.observe(element);
@@ -88,6 +90,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
         <>
           {shown.paths && <Paths editor={editor} camera={camera} size={size} />}
           <Drawing editor={editor} pointer={pointer} figure={figure} camera={camera} size={size} />
+          <Loads editor={editor} figure={figure} camera={camera} size={size} />
           <Arrows editor={editor} figure={figure} camera={camera} size={size} />
         </>
       )}

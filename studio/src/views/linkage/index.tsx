@@ -1,11 +1,10 @@
 /** The linkage editor. */
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { post } from "../../api/request";
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { address } from "../../app/routes";
-import { filesOf, project, refreshProject, SaveState, useDocument } from "../../project";
+import { filesOf, project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
-import { Button, CopyCommand, formatQuantity, IconButton, Slider } from "../../ui";
+import { Button, formatQuantity, IconButton, type Judged, Slider, Verdict, Zoom } from "../../ui";
 import { Canvas } from "./canvas";
 import { Editor } from "./editor";
 import { range, wrapped } from "./figure";
@@ -21,9 +20,6 @@ import "./linkage.css";
 const FIRST = "four-bar";
 
 export default function Linkage({ name }: { name: string }) {
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-  }, []);
   const names = filesOf("linkage").map((file) => nameOf(file.path));
   const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
   useReady(project.value !== null && shown === undefined);
@@ -73,11 +69,9 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
         if (file) void openFile(file);
       }}
     >
-      <header class="linkage-head">
-        <h1 class="visually-hidden">{t("linkage.title")}</h1>
+      <Head editor={editor} path={path}>
         <FileBar name={name} names={names} />
-        <SaveState document={document} textAddress={address("files", document.path)} />
-      </header>
+      </Head>
       <div class="linkage-body-area">
         <Toolbar tools={tools} onChoose={focus} />
         <div class="linkage-stage" ref={stage}>
@@ -85,11 +79,7 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
           <p class="visually-hidden" id="linkage-keys">
             {t("linkage.keys")}
           </p>
-          <div class="linkage-zoom">
-            <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => pointer.zoom(1.25)} />
-            <IconButton icon="minus" label={t("figure.zoomOut")} onClick={() => pointer.zoom(0.8)} />
-            <IconButton icon="fit" label={t("figure.zoomFit")} onClick={() => pointer.fit()} />
-          </div>
+          <Zoom onZoom={(factor) => pointer.zoom(factor)} onFit={() => pointer.fit()} />
           <TypedSpot tools={tools} onDone={focus} />
           <NextStep editor={editor} />
           <Player editor={editor} />
@@ -97,10 +87,23 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
         <aside class="linkage-aside" aria-label={t("linkage.panels")}>
           <ShownToggles editor={editor} />
           <Panels editor={editor} />
-          <Commands editor={editor} path={path} />
         </aside>
       </div>
     </div>
+  );
+}
+
+function Head({ editor, path, children }: { editor: Editor; path: string; children: ComponentChildren }) {
+  const { over, speed } = editor.drive.value;
+  return (
+    <ViewHead
+      title={t("linkage.title")}
+      document={editor.document}
+      verdict={<Verdict checks={(editor.quality.value?.checks ?? []) as unknown as Judged[]} />}
+      command={{ kind: "linkage", path, options: { over, speed } }}
+    >
+      {children}
+    </ViewHead>
   );
 }
 
@@ -187,20 +190,4 @@ function Player({ editor }: { editor: Editor }) {
       </output>
     </div>
   );
-}
-
-/** The state as its command line and as Python. */
-function Commands({ editor, path }: { editor: Editor; path: string }) {
-  const { over, speed } = editor.drive.value;
-  const [shown, setShown] = useState<{ command: string; python: string } | null>(null);
-  useEffect(() => {
-    const own = new AbortController();
-    const options = { ...(over ? { over } : {}), ...(speed ? { speed } : {}) };
-    post<{ command: string; python: string }>("/commands", { kind: "linkage", path, options }, own.signal).then(
-      setShown,
-      () => undefined,
-    );
-    return () => own.abort();
-  }, [path, over, speed]);
-  return shown === null ? null : <CopyCommand command={shown.command} python={shown.python} />;
 }

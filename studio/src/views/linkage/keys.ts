@@ -1,6 +1,5 @@
-/** Keys of the linkage editor: letters choose tools wherever nothing is typed; others act on the canvas. */
+/** Keys of the linkage editor that act on the canvas. */
 import type { Pointer } from "./pointer";
-import { LETTERS } from "./toolbar";
 
 /** Listens to the keys of the page; returns what ends it. `stageOf`: what holds the canvas and the typed position. */
 export function listenToKeys(pointer: Pointer, stageOf: () => HTMLElement | null): () => void {
@@ -16,19 +15,13 @@ export function listenToKeys(pointer: Pointer, stageOf: () => HTMLElement | null
 
 /** Does what a key stands for; returns whether it did, so that the browser does nothing of its own. */
 function isUsed(event: KeyboardEvent, pointer: Pointer, stage: HTMLElement): boolean {
-  const { editor, tools } = pointer;
+  const { editor } = pointer;
   const canvas = stage.querySelector<SVGElement>(".linkage-canvas");
   const target = event.target as Element;
   const isDrawing = canvas?.contains(target) || target.matches("body, main");
   if (event.ctrlKey || event.metaKey) {
     if (!isDrawing || event.key.toLowerCase() !== "a") return false;
     editor.selectAll();
-    return true;
-  }
-  const tool = LETTERS[event.key.toLowerCase()];
-  if (tool !== undefined) {
-    tools.choose(tool);
-    canvas?.focus();
     return true;
   }
   if (!isDrawing) return false;

@@ -224,6 +224,14 @@ export function addForce(data: MechanismData, body: string, point: string): stri
   return name;
 }
 
+/** Gives a force another size [N] and direction [rad]. */
+export function setForce(data: MechanismData, name: string, size: number, turn: number): void {
+  const load = (data["loads"] as Record<string, Table> | undefined)?.[name];
+  if (load === undefined) return;
+  load["force"] = data.units === "SI" ? Number(size.toPrecision(3)) : quantityText(size, "N", 3);
+  load["direction"] = angleEntry(data, turn);
+}
+
 /** A mass of a body, with its centre at a position. */
 export function addMass(data: MechanismData, body: string, at: Vec, poses: Poses): void {
   const table = bodies(data)[body];

@@ -194,11 +194,13 @@ export class Pointer {
   }
 
   wheel(screen: Vec, by: number): void {
+    this.hasPointed = true;
     const { camera } = this.editor;
     camera.value = zoomed(camera.peek(), this.size, Math.exp(-by * 0.0015), screen);
   }
 
   zoom(by: number): void {
+    this.hasPointed = true;
     const { camera } = this.editor;
     camera.value = zoomed(camera.peek(), this.size, by, vec(this.size.width / 2, this.size.height / 2));
   }

@@ -1,90 +1,44 @@
-/** The tools of the drawing, and what is shown; a bar of icons, with a letter each. */
+/** The tools of the drawing, and what is shown. */
 
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { t } from "../../text";
-import { Button, formatQuantity, IconButton, QuantityField, Toggle } from "../../ui";
+import { Button, formatQuantity, IconButton, QuantityField, Toggle, ToolBar } from "../../ui";
 import { type Editor, type Shown, TOOLS, type Tool } from "./editor";
 import { direction, distance, vec } from "./geometry";
 import type { Tools } from "./tools";
 
-const SHAPES: Record<Tool, string> = {
-  select: "M6 4l12 9-5.500 1-3 5.500z",
-  link: "M6 18a2 2 0 1 0 0-.010M18 6a2 2 0 1 0 0-.010M7.500 16.500l9-9",
-  body: "M5 18h14L13 5zM5 18h.010M19 18h.010M13 5h.010",
-  pin: "M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6M3 12h6M15 12h6",
-  pivot: "M12 4a2 2 0 1 0 0 4 2 2 0 0 0 0-4M11 8l-5 9h12l-5-9M4 17h16M7 17l-3 3M13 17l-3 3M19 17l-3 3",
-  slide: "M3 16h18M7 8h10v8H7zM12 12h.010",
-  gears: "M8 5a5 5 0 1 0 0 10A5 5 0 0 0 8 5M17 11a4 4 0 1 0 0 8 4 4 0 0 0 0-8",
-  drive: "M5 15a8 8 0 1 1 13 2M18 17l4-3M18 17l-1-5",
-  point: "M12 7l5 5-5 5-5-5zM3 19c4 2 14 2 18-2",
-  force: "M5 19 18 6M18 6h-6M18 6v6",
-  mass: "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16M12 4v16M4 12h16",
+/** Letter and icon of each tool. */
+const LOOKS: Record<Tool, readonly [letter: string, shape: string]> = {
+  select: ["V", "M6 4l12 9-5.500 1-3 5.500z"],
+  link: ["L", "M6 18a2 2 0 1 0 0-.010M18 6a2 2 0 1 0 0-.010M7.500 16.500l9-9"],
+  body: ["B", "M5 18h14L13 5zM5 18h.010M19 18h.010M13 5h.010"],
+  pin: ["P", "M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6M3 12h6M15 12h6"],
+  pivot: ["O", "M12 4a2 2 0 1 0 0 4 2 2 0 0 0 0-4M11 8l-5 9h12l-5-9M4 17h16M7 17l-3 3M13 17l-3 3M19 17l-3 3"],
+  slide: ["S", "M3 16h18M7 8h10v8H7zM12 12h.010"],
+  gears: ["G", "M8 5a5 5 0 1 0 0 10A5 5 0 0 0 8 5M17 11a4 4 0 1 0 0 8 4 4 0 0 0 0-8"],
+  drive: ["D", "M5 15a8 8 0 1 1 13 2M18 17l4-3M18 17l-1-5"],
+  point: ["T", "M12 7l5 5-5 5-5-5zM3 19c4 2 14 2 18-2"],
+  force: ["F", "M5 19 18 6M18 6h-6M18 6v6"],
+  mass: ["M", "M12 4a8 8 0 1 0 0 16 8 8 0 0 0 0-16M12 4v16M4 12h16"],
 };
 
-/** The letter that chooses a tool. */
-export const LETTERS: Record<string, Tool> = {
-  v: "select",
-  l: "link",
-  b: "body",
-  p: "pin",
-  o: "pivot",
-  s: "slide",
-  g: "gears",
-  d: "drive",
-  t: "point",
-  f: "force",
-  m: "mass",
-};
-
-const TURNS: Record<string, number | undefined> = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 };
-
-/** Tools, a letter each; the arrow keys go from one to the next. `onChoose`: a tool waits for positions on the canvas. */
+/** The tools; `onChoose`: one waits for positions on the canvas. */
 export function Toolbar({ tools, onChoose }: { tools: Tools; onChoose: () => void }) {
-  const box = useRef<HTMLDivElement>(null);
-  const { editor } = tools;
-  const letter = Object.fromEntries(Object.entries(LETTERS).map(([key, tool]) => [tool, key.toUpperCase()]));
   return (
-    <div
-      ref={box}
-      class="linkage-tools"
-      role="toolbar"
-      aria-label={t("linkage.tools")}
-      aria-orientation="vertical"
-      onKeyDown={(event) => {
-        const turn = TURNS[event.key];
-        const buttons = [...(box.current?.querySelectorAll("button") ?? [])];
-        const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
-        if (turn === undefined || at < 0) return;
-        event.preventDefault();
-        buttons[(at + turn + buttons.length) % buttons.length]?.focus();
+    <ToolBar
+      upright
+      label={t("linkage.tools")}
+      value={tools.editor.tool.value}
+      tools={TOOLS.map((value) => {
+        const [letter, shape] = LOOKS[value];
+        return { value, label: t(`linkage.tool_${value}`), letter, shape };
+      })}
+      onChoose={(tool) => {
+        tools.choose(tool);
+        onChoose();
       }}
-    >
-      {TOOLS.map((tool) => (
-        <button
-          key={tool}
-          type="button"
-          class="ui-button quiet"
-          aria-pressed={editor.tool.value === tool}
-          aria-keyshortcuts={letter[tool]}
-          title={`${t(`linkage.tool_${tool}`)} (${letter[tool]})`}
-          tabIndex={editor.tool.value === tool ? 0 : -1}
-          data-tool={tool}
-          onClick={() => {
-            tools.choose(tool);
-            onChoose();
-          }}
-        >
-          <svg class="ui-icon" viewBox="0 0 24 24" aria-hidden="true">
-            <path d={SHAPES[tool]} />
-          </svg>
-          <span class="name">{t(`linkage.tool_${tool}`)}</span>
-          <span class="key" aria-hidden="true">
-            {letter[tool]}
-          </span>
-        </button>
-      ))}
-    </div>
+    />
   );
 }
 

@@ -4,9 +4,9 @@ import { useEffect, useState } from "preact/hooks";
 import { answered, postPacked } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo, rename, type ViewProps } from "../../app/routes";
-import { filesOf, openDocument, project, refreshProject } from "../../project";
+import { filesOf, project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
-import { Button, CopyCommand, Progress, Select, toast } from "../../ui";
+import { Button, Progress, Select, toast, Verdict, VerdictBadge } from "../../ui";
 import { type Live, liveOf } from "./live";
 import { PlateSketch } from "./plate";
 import { findRun, run } from "./run";
@@ -18,10 +18,7 @@ import "./loom.css";
 const RECIPE = "carpet.toml";
 
 export default function Loom({ name }: ViewProps) {
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-    void findRun();
-  }, []);
+  useEffect(() => void findRun(), []);
   const files = loomFiles();
   const file = name || files[0];
   if (file === undefined) return project.value === null ? <Loading /> : <NoLoom />;
@@ -43,11 +40,12 @@ function LoomOf({ file, files }: LoomOfProps) {
   const [model, setModel] = useState<SceneModel | null>(null);
   const [workbench, setWorkbench] = useState<ComponentType<WorkbenchProps> | null>(null);
   const [error, setError] = useState("");
-  const document = openDocument(file);
-  const isRead = document.saved.value !== "loading";
+  const document = useDocument(file);
+  const isRead = !["loading", "changed", "saving"].includes(document.saved.value);
+  const text = document.text.value;
   useEffect(() => {
     const refused = document.error.peek();
-    if (refused !== null) setError([refused.given, refused.allowed, refused.do].filter(Boolean).join("; "));
+    setError(refused === null ? "" : [refused.given, refused.allowed, refused.do].filter(Boolean).join("; "));
     if (!isRead || refused !== null) return undefined;
     const control = new AbortController();
     Promise.all([postPacked<SceneAbout>("/loom/scene", { file }, control.signal), import("./workbench")]).then(
@@ -60,7 +58,7 @@ function LoomOf({ file, files }: LoomOfProps) {
       },
     );
     return () => control.abort();
-  }, [isRead]);
+  }, [isRead, text]);
   const [, setCompared] = useState(false);
   useEffect(() => {
     if (model === null || model.about.nearest !== null) return undefined;
@@ -78,24 +76,36 @@ function LoomOf({ file, files }: LoomOfProps) {
   }, [model]);
   const live = useLive(file, model);
   useReady(model !== null || error !== "");
-  if (error !== "") return <Sorry file={file} files={files} reason={error} />;
-  if (model === null || workbench === null) return <Loading />;
   const Shown = workbench;
-  const ties = model.about.periods.knot !== undefined;
   return (
-    <Shown
-      model={model}
-      above={
-        <div>
-          <h1>{model.about.title}</h1>
-          <Source file={file} files={files} />
-        </div>
-      }
-      below={<Files file={file} />}
-      running={ties && <RunPanel file={file} weaves={model.about.chart !== null} />}
-      live={live}
-      drawing={(plate) => <PlateSketch file={file} plate={plate} />}
-    />
+    <div class="loom-view">
+      <ViewHead
+        title={t("loom.title")}
+        document={document}
+        verdict={model?.about.nearest && <Found failures={model.about.failures} />}
+        command={{ kind: file === RECIPE ? "carpet" : "machine", path: file }}
+      >
+        <Select label={t("loom.file")} value={file} choices={choicesOf(files)} onChange={rename} />
+        <Button icon="download" onClick={() => void saveGlb(file)}>
+          {t("loom.glb")}
+        </Button>
+      </ViewHead>
+      {error !== "" ? (
+        <p class="ui-callout bad" role="alert">
+          {`${t("loom.failed")}: ${error}`}
+        </p>
+      ) : model === null || Shown === null ? (
+        <Progress label={t("loom.loading")} />
+      ) : (
+        <Shown
+          key={model.about.title}
+          model={model}
+          running={model.about.periods.knot && <RunPanel file={file} weaves={model.about.chart !== null} />}
+          live={live}
+          drawing={(plate) => <PlateSketch file={file} plate={plate} />}
+        />
+      )}
+    </div>
   );
 }
 
@@ -138,50 +148,26 @@ function NoLoom() {
   );
 }
 
-function Source({ file, files }: LoomOfProps) {
-  const choices = files.map((path) => ({ value: path, label: path }));
-  return <Select label={t("loom.file")} value={file} choices={choices} onChange={rename} />;
+/** The verdict once the parts are compared in space. */
+function Found({ failures }: Pick<SceneAbout, "failures">) {
+  return failures.length > 0 ? <Verdict checks={failures} /> : <VerdictBadge ok>{t("ui.allHold")}</VerdictBadge>;
 }
 
-function Files({ file }: { file: string }) {
-  const save = async () => {
-    try {
-      const body = { body: JSON.stringify({ file }), type: "application/json" };
-      const blob = await (await answered("POST", "/loom/glb", body)).blob();
-      const link = document.createElement("a");
-      link.href = URL.createObjectURL(blob);
-      link.download = "loom.glb";
-      link.click();
-      URL.revokeObjectURL(link.href);
-      toast(t("loom.glbSaved"), "good");
-    } catch (reason) {
-      toast(reason instanceof Error ? reason.message : String(reason), "bad");
-    }
-  };
-  return (
-    <details class="loom-files">
-      <summary>{t("loom.export")}</summary>
-      <Button icon="download" onClick={save}>
-        {t("loom.glb")}
-      </Button>
-      <CopyCommand command={command(file)} />
-    </details>
-  );
+function choicesOf(files: readonly string[]) {
+  return files.map((path) => ({ value: path, label: path }));
 }
 
-function command(file: string): string {
-  return file === RECIPE ? `ilmek weave ${file}` : `ilmek design ${file} --glb loom.glb`;
-}
-
-function Sorry({ file, files, reason }: LoomOfProps & { reason: string }) {
-  return (
-    <div class="app-plain">
-      <h1>{t("loom.title")}</h1>
-      <p class="ui-callout bad" role="alert">
-        {`${t("loom.failed")}: ${reason}`}
-      </p>
-      <Source file={file} files={files} />
-      <CopyCommand command={command(file)} />
-    </div>
-  );
+async function saveGlb(file: string): Promise<void> {
+  try {
+    const body = { body: JSON.stringify({ file }), type: "application/json" };
+    const blob = await (await answered("POST", "/loom/glb", body)).blob();
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = "loom.glb";
+    link.click();
+    URL.revokeObjectURL(link.href);
+    toast(t("loom.glbSaved"), "good");
+  } catch (reason) {
+    toast(reason instanceof Error ? reason.message : String(reason), "bad");
+  }
 }

@@ -18,9 +18,7 @@ import type { ViewName } from "./views";
 
 export interface WorkbenchProps {
   model: SceneModel;
-  /** What a server adds: the source of the loom above, its files below, and a run of the twin. */
-  above?: ComponentChildren;
-  below?: ComponentChildren;
+  /** A run of the twin, where there is a server. */
   running?: ComponentChildren;
   /** The drawing of a plate, where it can be had. */
   drawing?: (plate: string) => ComponentChildren;
@@ -33,7 +31,7 @@ type Tab = "look" | "parts" | "clearances" | "run";
 /** A press of "," or "." turns by so much, with Shift by ten times [rad]. */
 const SCRUB = TURN / 360;
 
-export function Workbench({ model, above, below, running, drawing, live = null }: WorkbenchProps) {
+export function Workbench({ model, running, drawing, live = null }: WorkbenchProps) {
   const { about } = model;
   const drawn = graphics() !== "none";
   const drives = drivesOf(about);
@@ -168,7 +166,6 @@ export function Workbench({ model, above, below, running, drawing, live = null }
         )}
       </div>
       <div class="loom-side">
-        {above}
         <Failures checks={about.failures} parts={about.parts} onChoose={pick} />
         <Tabs label={t("loom.sides")} value={tab} tabs={tabs} onChange={setTab}>
           <div class="loom-tab">
@@ -192,7 +189,6 @@ export function Workbench({ model, above, below, running, drawing, live = null }
             {tab === "run" && running}
           </div>
         </Tabs>
-        {below}
       </div>
     </div>
   );

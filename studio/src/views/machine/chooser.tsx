@@ -32,30 +32,32 @@ export function Chooser({ name, onChoose }: { name: string; onChoose: (name: str
     else void create(chosen);
   };
   return (
-    <label class="machine-chooser">
-      <span class="ui-label">{t("machine.choose")}</span>
-      <select class="ui-input" value={`file:${name}`} onChange={(event) => choose(event.currentTarget.value)}>
-        {!files.includes(name) && (
-          <option value={`file:${name}`} selected>
-            {name}
+    <select
+      class="ui-input machine-chooser"
+      aria-label={t("machine.choose")}
+      value={`file:${name}`}
+      onChange={(event) => choose(event.currentTarget.value)}
+    >
+      {!files.includes(name) && (
+        <option value={`file:${name}`} selected>
+          {name}
+        </option>
+      )}
+      <optgroup label={t("machine.inProject")}>
+        {files.map((one) => (
+          <option key={one} value={`file:${one}`} selected={one === name}>
+            {one}
           </option>
-        )}
-        <optgroup label={t("machine.inProject")}>
-          {files.map((one) => (
-            <option key={one} value={`file:${one}`} selected={one === name}>
-              {one}
-            </option>
-          ))}
-        </optgroup>
-        <optgroup label={t("machine.fromCatalogue")}>
-          {machines.map((one) => (
-            <option key={one.name} value={`new:${one.name}`} title={one.summary}>
-              {one.name}: {one.summary}
-            </option>
-          ))}
-        </optgroup>
-      </select>
-    </label>
+        ))}
+      </optgroup>
+      <optgroup label={t("machine.fromCatalogue")}>
+        {machines.map((one) => (
+          <option key={one.name} value={`new:${one.name}`} title={one.summary}>
+            {one.name}: {one.summary}
+          </option>
+        ))}
+      </optgroup>
+    </select>
   );
 }
 

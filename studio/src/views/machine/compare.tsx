@@ -22,6 +22,16 @@ export function CompareButtons({ model }: { model: MachineModel }) {
   );
 }
 
+/** The first parameters that differ from B, in a line. */
+export function Differences({ model }: { model: MachineModel }) {
+  const rows = model.comparison.value?.parameters ?? [];
+  return rows.slice(0, 2).map((row) => (
+    <span key={keyOf(row.machine, row.name)} class="machine-difference">
+      {row.name.replaceAll("_", " ")} <b>A {row.a || "–"}</b> <b class="b">B {row.b || "–"}</b>
+    </span>
+  ));
+}
+
 /** What differs between A, the settings now, and B, the settings kept. */
 export function Compare({ model }: { model: MachineModel }) {
   const found = model.comparison.value;
@@ -48,7 +58,7 @@ function Count({ name, failed }: { name: string; failed: number }) {
   return (
     <span class={`ui-badge ${failed === 0 ? "good" : "bad"}`}>
       <Icon name={failed === 0 ? "good" : "error"} />
-      {name}: {failed === 0 ? t("machine.holds") : t("machine.fails", { count: failed })}
+      {name}: {failed === 0 ? t("ui.allHold") : t("ui.someFail", { count: failed })}
     </span>
   );
 }

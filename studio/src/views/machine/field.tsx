@@ -4,7 +4,7 @@ import type { ForceValue, FormField, ReadValue } from "../../api/messages";
 import { ApiError, post } from "../../api/request";
 import { t } from "../../text";
 import { Icon, IconButton, Slider } from "../../ui";
-import { type Bounds, formatQuantity, outside, readQuantity } from "../../ui/units";
+import { type Bounds, formatQuantity, outside, readQuantity, spaced } from "../../ui/units";
 import { labelOf, nameIn } from "./form";
 import type { MachineModel } from "./model";
 import { onScale, positionOf, type Scale, STEPS, scaleAround, textAt } from "./scale";
@@ -19,6 +19,7 @@ interface RowProps {
 /** A parameter: what it is, its value, and what it does to the checks. */
 export function FieldRow({ model, field }: RowProps) {
   const id = useId();
+  const [asked, setAsked] = useState(false);
   const settings = model.settings.value;
   const name = nameIn(field, settings);
   const setting = name === undefined ? undefined : settings[name];
@@ -31,14 +32,11 @@ export function FieldRow({ model, field }: RowProps) {
   const chosen = name === undefined && field.default === null && force?.value != null;
   return (
     <div class={`machine-field${name === undefined ? "" : " set"}`}>
-      <div class="ui-field-head">
-        <label for={id}>{label}</label>
-        {field.symbol && <span class="ui-symbol">{field.symbol}</span>}
-        {field.allowed !== "" && field.kind !== "choice" && (
-          <span class="ui-bounds" id={`${id}-bounds`}>
-            {field.allowed.replace(/^allowed: /, "")}
-          </span>
-        )}
+      <span class="machine-name" title={field.doc}>
+        <label for={id}>{label}</label> {field.symbol && <span class="ui-symbol">{field.symbol}</span>}
+      </span>
+      <Control id={id} model={model} field={field} setting={setting} force={force} set={set} />
+      <span class="machine-aids">
         {name !== undefined && (
           <IconButton
             icon="reset"
@@ -47,11 +45,24 @@ export function FieldRow({ model, field }: RowProps) {
             onClick={() => set(undefined)}
           />
         )}
-      </div>
-      <Control id={id} model={model} field={field} setting={setting} force={force} set={set} />
-      <p class="ui-help" id={`${id}-help`}>
-        <Meaning text={field.doc} />
-        {chosen && <> {t("machine.chosen", { value: force.text })}</>}
+        <IconButton
+          icon="help"
+          size="small"
+          label={t("machine.about", { name: label })}
+          aria-expanded={asked}
+          onClick={() => setAsked(!asked)}
+        />
+      </span>
+      <p class="ui-help" hidden={!asked}>
+        <span id={`${id}-help`}>
+          <Meaning text={field.doc} />
+          {chosen && <> {t("machine.chosen", { value: force.text })}</>}
+        </span>{" "}
+        {field.allowed !== "" && field.kind !== "choice" && (
+          <span class="ui-bounds" id={`${id}-bounds`}>
+            {field.allowed.replace(/^allowed: /, "")}
+          </span>
+        )}
       </p>
       {model.moving.value && <Strip model={model} field={field} />}
     </div>
@@ -121,13 +132,13 @@ const TRUE = new Set(["yes", "true", "on", "1"]);
 /** A quantity, a number or a text typed freely, a number with a slider. */
 function Typed({ id, model, field, setting, force, set, about }: ControlProps & { about: string }) {
   const given = setting === undefined ? "" : String(setting);
-  const [draft, setDraft] = useState(given);
+  const [draft, setDraft] = useState(spaced(given));
   const [refused, setRefused] = useState("");
   const typed = useRef(given);
   const pause = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   useEffect(() => {
     if (given !== typed.current) {
-      setDraft(given);
+      setDraft(spaced(given));
       setRefused("");
     }
     typed.current = given;
@@ -151,17 +162,17 @@ function Typed({ id, model, field, setting, force, set, about }: ControlProps & 
   const end = () => {
     clearTimeout(pause.current);
     model.drop();
-    if (refused === "") setDraft(typed.current);
+    if (refused === "") setDraft(spaced(typed.current));
   };
   const back = () => {
     check.cancel();
     setRefused("");
-    setDraft(typed.current);
+    setDraft(spaced(typed.current));
   };
   const shown = typeof force?.value === "number" ? force.value : null;
   return (
     <>
-      <div class={shown === null || field.kind === "text" ? "" : "ui-with-slider"}>
+      <div class={shown === null || field.kind === "text" ? "machine-wide" : "ui-with-slider"}>
         {shown !== null && field.kind !== "text" && (
           <ValueSlider model={model} field={field} value={readValue(field, given) ?? shown} />
         )}

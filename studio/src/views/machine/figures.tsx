@@ -3,7 +3,7 @@ import type { MachineFigures, ShownFigure } from "../../api/messages";
 import { aboutOf, Figure, SharedCursor } from "../../draw";
 import { t } from "../../text";
 import { Toggle } from "../../ui";
-import { CompareButtons } from "./compare";
+import { CompareButtons, Differences } from "./compare";
 import type { MachineModel } from "./model";
 import { overlaid } from "./overlay";
 
@@ -20,16 +20,21 @@ export function Figures({ model }: { model: MachineModel }) {
       <div class="ui-row">
         <CompareButtons model={model} />
         {model.b.value !== null && <Toggle label={t("machine.overlay")} value={dashed} onChange={setDashed} />}
+        <Differences model={model} />
       </div>
-      <Choose model={model} found={found} />
       {shown.length === 0 && <p class="ui-muted">{t("machine.noFigures")}</p>}
       <SharedCursor key={`${model.machine.value} ${model.part.value}`}>
         <div class="fig-grid">
           {shown.map((figure) => (
-            <Figure key={aboutOf(figure).name} figure={figure} />
+            <Figure
+              key={aboutOf(figure).name}
+              figure={figure}
+              ghost={b?.figures.find((one) => aboutOf(one).name === aboutOf(figure).name)}
+            />
           ))}
         </div>
       </SharedCursor>
+      <Choose model={model} found={found} />
     </section>
   );
 }

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { formatNumber, t } from "../../text";
-import { Button, Icon, Progress, Toggle } from "../../ui";
+import { Button, Progress, SearchField, Toggle } from "../../ui";
 import { FieldRow } from "./field";
 import { type Group, groupLabel, groupsOf } from "./form";
 import type { MachineModel } from "./model";
@@ -20,17 +20,7 @@ export function FormSide({ model }: { model: MachineModel }) {
   return (
     <div class="machine-form ui-stack">
       <div class="machine-tools ui-stack">
-        <label class="machine-search">
-          <span class="visually-hidden">{t("machine.search")}</span>
-          <Icon name="search" />
-          <input
-            class="ui-input"
-            type="search"
-            placeholder={t("machine.search")}
-            value={words}
-            onInput={(event) => setWords(event.currentTarget.value)}
-          />
-        </label>
+        <SearchField label={t("machine.search")} value={words} onChange={setWords} />
         <div class="ui-row">
           <Toggle label={`${t("machine.changedOnly")} (${formatNumber(set)})`} value={changed} onChange={setChanged} />
           <span class="ui-grow" />

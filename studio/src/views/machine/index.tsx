@@ -1,9 +1,8 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { address, goTo, type ViewProps } from "../../app/routes";
+import { goTo, type ViewProps } from "../../app/routes";
 import { remember, remembered } from "../../app/settings";
-import { filesOf, project, SaveState } from "../../project";
-import { useDocument } from "../../project/use-document";
+import { filesOf, project, useDocument, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Segments, Split } from "../../ui";
 import { Chooser, NoFile } from "./chooser";
@@ -11,7 +10,7 @@ import { FormSide } from "./form-side";
 import { MachineModel } from "./model";
 import { Outcome } from "./outcome";
 import type { MachineFile } from "./settings";
-import { VerdictBadge } from "./verdict";
+import { MachineVerdict } from "./verdict";
 import "./machine.css";
 
 /** The file shown where the address names none: the last one, or the first of the project. */
@@ -43,7 +42,7 @@ export default function Machine({ name }: ViewProps) {
 function OneMachine({ name }: { name: string }) {
   const document = useDocument<MachineFile>(`machines/${name}.toml`);
   const model = useMemo(() => new MachineModel(document), [document]);
-  const [tab, setTab] = useState("checks");
+  const [tab, setTab] = useState("results");
   const [side, setSide] = useState<"outcome" | "form">("outcome");
   useEffect(() => {
     remember("machine.last", name);
@@ -53,10 +52,13 @@ function OneMachine({ name }: { name: string }) {
   useReady(model.view.value !== null);
   return (
     <div class={`machine show-${side}`}>
-      <header class="machine-head">
-        <h1 class="visually-hidden">{t("machine.title")}</h1>
+      <ViewHead
+        title={t("machine.title")}
+        document={document}
+        verdict={<MachineVerdict model={model} />}
+        command={{ kind: "machine", machine: model.machine.value, settings: model.settings.value }}
+      >
         <Chooser name={name} onChoose={(to) => goTo("machine", to)} />
-        <VerdictBadge model={model} />
         <div class="machine-sides">
           <Segments
             label={t("machine.title")}
@@ -69,9 +71,7 @@ function OneMachine({ name }: { name: string }) {
             onChange={setSide}
           />
         </div>
-        <span class="ui-grow" />
-        {!missing && <SaveState document={document as never} textAddress={address("files", document.path)} />}
-      </header>
+      </ViewHead>
       {missing ? (
         <NoFile name={name} />
       ) : (

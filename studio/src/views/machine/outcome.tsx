@@ -1,12 +1,11 @@
-import { CheckList, ChoiceTable, ResultTable } from "../../draw";
+import { ChoiceTable, ResultTable } from "../../draw";
 import { t } from "../../text";
 import { Tabs } from "../../ui";
-import { Command } from "./command";
 import { Compare } from "./compare";
 import { Figures } from "./figures";
 import type { MachineModel } from "./model";
 import { DesignTables } from "./tables";
-import { Verdict } from "./verdict";
+import { Judgement } from "./verdict";
 
 interface OutcomeProps {
   model: MachineModel;
@@ -14,30 +13,25 @@ interface OutcomeProps {
   onTab: (tab: string) => void;
 }
 
-/** What the design is: verdict, figures, checks, results, and what differs from B. */
+/** What the design is: the checks that bind, figures, results, and what differs from B. */
 export function Outcome({ model, tab, onTab }: OutcomeProps) {
   const view = model.view.value;
-  const failed = view === null || view.holds ? "" : ` (${view.failed})`;
   const tabs = [
-    { value: "checks", label: `${t("machine.checks")}${failed}` },
     { value: "results", label: t("machine.results") },
     { value: "tables", label: t("machine.tables") },
     { value: "compare", label: t("machine.comparison") },
     { value: "choices", label: t("machine.choices") },
-    { value: "command", label: t("machine.command") },
   ];
   return (
     <div class="machine-outcome ui-stack">
-      <Verdict model={model} />
+      <Judgement model={model} />
       <Figures model={model} />
       {view !== null && (
         <Tabs label={view.title} value={tab} tabs={tabs} onChange={onTab}>
-          {tab === "checks" && <CheckList checks={view.checks} />}
           {tab === "results" && <ResultTable results={view.results} />}
           {tab === "tables" && <DesignTables model={model} />}
           {tab === "compare" && <Compare model={model} />}
           {tab === "choices" && <Choices warnings={view.warnings} choices={view.choices} />}
-          {tab === "command" && <Command model={model} />}
         </Tabs>
       )}
     </div>

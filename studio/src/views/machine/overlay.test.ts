@@ -13,9 +13,9 @@ test("curves of B are dashed over those of A, where the axes are the same", () =
   const a = [plot("pin-forces", "A0", [1, 2]), plot("torque", "M", [1, 2]), plot("alone", "x", [0, 0])];
   const b = [plot("pin-forces", "A0", [3, 4]), plot("torque", "M", [5, 6], "N*m")];
   const found = overlaid(a, b);
-  expect(found[0]?.plot?.series.map((curve) => [curve.label, curve.dashed, curve.y])).toEqual([
-    ["A0", false, [1, 2]],
-    ["B: A0", true, [3, 4]],
+  expect(found[0]?.plot?.series.map((curve) => [curve.label, curve.dashed, curve.look, curve.y])).toEqual([
+    ["A0", false, 0, [1, 2]],
+    ["B: A0", true, 1, [3, 4]],
   ]);
   expect(found[1]).toBe(a[1]);
   expect(found[2]).toBe(a[2]);

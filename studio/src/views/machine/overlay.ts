@@ -1,4 +1,4 @@
-/** The curves of B, dashed over those of A. */
+/** The curves of B, in colours and marks of their own, dashed over those of A. */
 import type { ShownFigure } from "../../api/messages";
 import { aboutOf } from "../../draw/figures";
 
@@ -8,7 +8,10 @@ export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): 
   return a.map((figure) => {
     const [mine, theirs] = [figure.plot, others.get(aboutOf(figure).name)?.plot];
     if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.unit !== theirs.y.unit) return figure;
-    const dashed = theirs.series.map((curve) => ({ ...curve, label: `B: ${curve.label}`, dashed: true }));
+    const looks = 1 + Math.max(...mine.series.map((curve) => curve.look));
+    const dashed = theirs.series.map((curve) => {
+      return { ...curve, label: `B: ${curve.label}`, look: looks + curve.look, dashed: true };
+    });
     return { ...figure, plot: { ...mine, series: [...mine.series, ...dashed] } };
   });
 }

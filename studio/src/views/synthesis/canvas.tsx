@@ -1,7 +1,7 @@
 import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
-import { IconButton, useSize } from "../../ui";
+import { useSize, Zoom } from "../../ui";
 import { type At, type Camera, fitted, gridLines, type Size, toPlane, toScreen, zoomed } from "./camera";
 import {
   dragged,
@@ -131,19 +131,10 @@ export function Canvas(props: CanvasProps) {
         {props.behind(camera)}
         <Handles {...props} camera={camera} />
       </svg>
-      <div class="synthesis-zoom">
-        <IconButton icon="plus" label={t("figure.zoomIn")} onClick={() => setCamera(zoomed(camera, 1.3, middle))} />
-        <IconButton
-          icon="minus"
-          label={t("figure.zoomOut")}
-          onClick={() => setCamera(zoomed(camera, 1 / 1.3, middle))}
-        />
-        <IconButton
-          icon="fit"
-          label={t("figure.zoomFit")}
-          onClick={() => setCamera(fitted(props.content, size, 44, props.stretched))}
-        />
-      </div>
+      <Zoom
+        onZoom={(factor) => setCamera(zoomed(camera, factor, middle))}
+        onFit={() => setCamera(fitted(props.content, size, 44, props.stretched))}
+      />
     </div>
   );
 }

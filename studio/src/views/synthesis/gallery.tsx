@@ -7,15 +7,13 @@ import { StillThumbnail, Thumbnail } from "./thumbnail";
 
 interface GalleryProps {
   answer: SynthesisAnswer;
-  /** Whether the answer is that of the full search for the task as it is now. */
-  isFull: boolean;
   chosen: number;
   onChoose: (number: number) => void;
   onLoosen: (name: string, value: string) => void;
 }
 
 /** The candidates, moving, in the order of their rank; filters; those left out with their reasons. */
-export function Gallery({ answer, isFull, chosen, onChoose, onLoosen }: GalleryProps) {
+export function Gallery({ answer, chosen, onChoose, onLoosen }: GalleryProps) {
   const [filter, setFilter] = useState<Filter>(NO_FILTER);
   const [order, setOrder] = useState<Order>("rank");
   const shown = ordered(
@@ -25,13 +23,7 @@ export function Gallery({ answer, isFull, chosen, onChoose, onLoosen }: GalleryP
   const hidden = answer.candidates.length - shown.length;
   return (
     <section class="ui-stack" aria-label={t("synthesis.gallery")}>
-      <div class="ui-row synthesis-gallery-head">
-        <h2>{t("synthesis.gallery")}</h2>
-        <span class={`ui-badge ${isFull ? "good" : "warn"}`}>
-          {t(isFull ? "synthesis.fullSearch" : "synthesis.shortSearch")}
-        </span>
-        <span class="ui-muted">{t("synthesis.found", { count: answer.found })}</span>
-      </div>
+      <h2>{t("synthesis.gallery")}</h2>
       <Jammed answer={answer} />
       {answer.candidates.length > 1 && (
         <details class="ui-details">

@@ -1,7 +1,7 @@
-import { useEffect, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
+import { filesOf, freePath, newFile, project, ViewHead } from "../../project";
 import { t } from "../../text";
 import { Button, Dialog, Segments, Select, toast } from "../../ui";
 import { LISTS, MACHINES, type Machine } from "./task";
@@ -18,9 +18,6 @@ export function stemOf(path: string): string {
 /** Four-bars from clicked points, poses or a function. */
 export default function Synthesis({ name }: ViewProps) {
   const [creating, setCreating] = useState(false);
-  useEffect(() => {
-    if (project.peek() === null) void refreshProject().catch(() => undefined);
-  }, []);
   useReady(project.value !== null && filesOf(FOLDER).length === 0);
   const files = filesOf(FOLDER);
   const stem = name || stemOf(files[0]?.path ?? "");
@@ -42,11 +39,10 @@ export default function Synthesis({ name }: ViewProps) {
   return (
     <div class="synthesis">
       {stem === "" ? (
-        <div class="ui-stack">
-          <h1>{t("synthesis.title")}</h1>
+        <>
+          <ViewHead title={t("synthesis.title")}>{head}</ViewHead>
           <p>{project.value === null ? t("app.loading") : t("synthesis.noFile")}</p>
-          <div class="ui-row">{head}</div>
-        </div>
+        </>
       ) : (
         <TaskView key={stem} path={`${FOLDER}/${stem}.toml`} stem={stem} head={head} />
       )}

@@ -3,10 +3,10 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api/messages";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
-import { address, goTo } from "../../app/routes";
-import { type Document, FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
+import { goTo } from "../../app/routes";
+import { type Document, freePath, newFile, useDocument, ViewHead } from "../../project";
 import { formatNumber, t } from "../../text";
-import { Button, FaultNote, Progress, Segments, toast } from "../../ui";
+import { Button, FaultNote, Progress, Segments, toast, VerdictBadge } from "../../ui";
 import { playing, setPlaying } from "./clock";
 import { Details } from "./details";
 import { FunctionCanvas } from "./function-canvas";
@@ -58,19 +58,19 @@ export function TaskView({ path, stem, head }: TaskProps) {
   const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
   return (
     <>
-      <header class="ui-view-head">
-        <div>
-          <h1>{t("synthesis.title")}</h1>
-          <p>{t("synthesis.lead")}</p>
-        </div>
-        <div class="ui-row synthesis-files">{head}</div>
-        <SaveState document={file as never} textAddress={address("files", file.path)} />
-      </header>
+      <ViewHead
+        title={t("synthesis.title")}
+        document={file}
+        verdict={answer && <Found answer={answer} isFull={search.state.value === "done"} />}
+        command={{ kind: "machine", path }}
+      >
+        {head}
+      </ViewHead>
       {data === null || !isMachine(data.machine) ? (
         <Unreadable file={file} />
       ) : (
         <div class="synthesis-columns">
-          <TaskPanel data={data} path={path} point={point} onPoint={setPoint} onChange={change} />
+          <TaskPanel data={data} point={point} onPoint={setPoint} onChange={change} />
           <div class="synthesis-main ui-stack">
             <Editor data={data} answer={answer} chosen={chosen} point={point} onPoint={setPoint} onChange={change} />
             {missing > 0 && (
@@ -87,7 +87,6 @@ export function TaskView({ path, stem, head }: TaskProps) {
             {answer && (
               <Gallery
                 answer={answer}
-                isFull={search.state.value === "done"}
                 chosen={number}
                 onChoose={(to) => change(withSetting(data, "chosen", to === 1 ? undefined : to), true)}
                 onLoosen={(name, value) => change(withSetting(data, name, loosened(value)), true)}
@@ -97,6 +96,15 @@ export function TaskView({ path, stem, head }: TaskProps) {
         </div>
       )}
     </>
+  );
+}
+
+/** How many candidates there are, and how thoroughly they were searched. */
+function Found({ answer, isFull }: { answer: SynthesisAnswer; isFull: boolean }) {
+  return (
+    <VerdictBadge ok={answer.found > 0} about={t(isFull ? "synthesis.fullSearch" : "synthesis.shortSearch")}>
+      {t("synthesis.found", { count: answer.found })}
+    </VerdictBadge>
   );
 }
 
@@ -203,11 +211,7 @@ function Taken({ one, stem }: { one: ShownFourBar; stem: string }) {
   return <Details one={one} busy={busy} onTake={take} />;
 }
 
-interface PanelProps extends Omit<EditorProps, "answer" | "chosen"> {
-  path: string;
-}
-
-function TaskPanel({ data, path, point, onPoint, onChange }: PanelProps) {
+function TaskPanel({ data, point, onPoint, onChange }: Omit<EditorProps, "answer" | "chosen">) {
   const [tab, setTab] = useState<"points" | "limits">("points");
   const points = pointsOf(data) ?? [];
   const machine = data.machine;
@@ -234,7 +238,6 @@ function TaskPanel({ data, path, point, onPoint, onChange }: PanelProps) {
           onChange={(name, value) => onChange(withSetting(data, name, value), true)}
         />
       )}
-      <FileCommand kind="machine" path={path} />
     </section>
   );
 }

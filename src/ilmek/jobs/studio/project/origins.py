@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.project.folder import OWN, SUFFIX, ProjectFolder, digest_of, read_bytes, write_bytes
@@ -28,7 +27,7 @@ class Origins:
     """What is noted of each file or folder in out/: time of its last change [ns], digests of the files by path."""
 
     folder: ProjectFolder
-    notes: Mapping[str, Any]
+    notes: Mapping[str, object]
 
     def changed(self, target: str, source: str, time: int) -> tuple[str, ...]:
         """The paths of the files that have changed since a target was written of a source.

@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -219,7 +218,7 @@ def function_required(design: FourBarDesign) -> list[list[float]] | None:
     return [x.tolist(), np.asarray(function.rocker(x)).tolist()]
 
 
-def task_points(design: Any) -> tuple[list[list[float]], list[float]]:
+def task_points(design: object) -> tuple[list[list[float]], list[float]]:
     """The points [m] of the task, and the angles of its poses [rad]; empty where it has none."""
     if isinstance(design, MotionFourBar):
         points, angles = design.poses

@@ -24,7 +24,7 @@ from ilmek.machines.automated_loom.on_rail import (
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.supports import rail_middle
-from ilmek.machines.weaver.drive_parts import drive_front, reducer_left
+from ilmek.machines.weaver.drive_parts import drive_front, drive_top, reducer_left
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.part import Part
@@ -68,8 +68,9 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     foot = Placed(box(ARM[0], FOOT, ARM[1]), (placement(y=(ARM[1] + FOOT) / 2, z=top - end - ARM[1]),))
     bent = Sum((Placed(box(*ARM, top - end)), toe, foot))
     arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", bent, STEEL)
-    # Where the head's drive reaches so far to the front, to the left of it.
-    beside = drive_front(loom.weaver) > shape.front - ARM[1] - ROOM
+    # Where the head's drive reaches so far to the front, or under the foot, to the left of it.
+    deep = ARM[1] + (FOOT if drive_top(loom.weaver) > top - ARM[1] - ROOM else 0.0)
+    beside = drive_front(loom.weaver) > shape.front - deep - ROOM
     x = min(0.0, reducer_left(loom.weaver) - ROOM - ARM[0] / 2) if beside else 0.0
     upright = placement(x, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))

@@ -7,6 +7,7 @@ control too, which is a part of the fence. The doors are the bays of the front; 
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -198,6 +199,7 @@ def _add(places: dict[tuple[float, float], list[Placement]], spacing: float, tal
         places.setdefault((round(wide, 9), round(tall, 9)), []).append(own)
 
 
+@lru_cache(maxsize=64)
 def mesh_panel(name: str, title: str, between: float, tall: float) -> Part:
     """A panel of welded wire with its clamps between posts: x across, 0 in its middle, y up, z through it from 0."""
     wide = between - 2 * _CLAMP[0]

@@ -52,6 +52,7 @@ def without_circuit(loom: LoomDesign) -> Tree:
     return joined((*machine_branches(loom), *_watched(loom)))
 
 
+@lru_cache(maxsize=4)
 def _of_heads(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """Creel and chains of the heads; none where weavers tie."""
     return (*creel_trees(loom), *chain_trees(loom)) if loom.heads else ()

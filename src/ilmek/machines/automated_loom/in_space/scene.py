@@ -128,7 +128,7 @@ def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
     return tuple(moved)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=16)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom and of its equipment, each after what carries it."""
     return (*machine_branches(loom), *equipment(loom))
@@ -142,7 +142,7 @@ def screwed_branches(loom: LoomDesign) -> Iterator[MachineTree]:
         yield replace(branch, tree=branch.tree.replaced(bodies))
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=16)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
     whole = joined(branches_of(loom))

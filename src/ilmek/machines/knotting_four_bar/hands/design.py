@@ -166,7 +166,7 @@ def loads(made: HandParts) -> CrankLoads:
     hand, task = made.hand, made.hand.section.task
     motion, inertias, tip = hand.stroke(), made.inertias(), hand.tip
     turned = 1j * motion.omega("coupler") * motion.direction("coupler")
-    velocity = motion.velocity_of_origin("coupler") + turned * tip
+    velocity = motion["coupler"].velocity + turned * tip
     size = np.abs(velocity)
     pull = -task.yarn_pull * velocity / np.where(size > 0, size, 1.0)
     torques, errors = [], []

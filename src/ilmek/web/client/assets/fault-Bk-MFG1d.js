@@ -1,1 +1,0 @@
-import{O as e,k as t}from"./routes-DvR-4sb7.js";function n(n){return n instanceof t||n instanceof DOMException&&n.name===`AbortError`?null:n instanceof e?{given:n.given,allowed:n.allowed,do:n.do}:{given:n instanceof Error?n.message:String(n),allowed:``,do:``}}export{n as t};

@@ -1,0 +1,1 @@
+export{t as Yarns}from"./yarns-DTx_8JXG.js";
