@@ -215,7 +215,7 @@ def report() -> None:
 
 COMMANDS = (
     ["chart", "none.png", "--size", "40x60", "--quality", "20x20/dm"],
-    ["chart", "none.png", "--size", "40x60cm", "--quality", "fine"],
+    ["chart", "none.png", "--size", "40x60cm", "--quality", "xyz"],
     ["design", "cam", "--set", "lift=9km"],
     ["report"],
 )

@@ -78,7 +78,7 @@ class Quality:
         return write_quality(self, "dm", digits=4)
 
 
-EXAMPLE = "write it like 25x25/dm, 40raj, 130kpsi, 62500/m2, 9/60 or 90line"
+EXAMPLE = Sentence("quality.example")
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from typing import Any, cast
 import click
 
 from ilmek.cli.interrupts import interrupted, leave, supervised
-from ilmek.cli.language import language_option, speak, told
+from ilmek.cli.language import error_line, language_option, speak
 from ilmek.errors import IlmekError, did_you_mean
 
 CLOSED = 128 + 13
@@ -51,7 +51,7 @@ class LazyGroup(click.Group):
         try:
             return super().invoke(ctx)
         except IlmekError as error:
-            error.args = (told(error),)
+            error.args = (error_line(error),)
             raise
 
     def resolve_command(

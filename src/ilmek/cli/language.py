@@ -16,7 +16,7 @@ def speak(context: click.Context, _: click.Parameter, language: str | None) -> s
     return language
 
 
-def said(text: str) -> str:
+def printed(text: str) -> str:
     """A sentence in the language of the command, as a terminal may show it; another text as it is."""
     return worded(text) if isinstance(text, Sentence) else printable(text)
 
@@ -31,9 +31,9 @@ def worded(text: str) -> str:
         return printable(headed(text))
 
 
-def told(error: IlmekError) -> str:
+def error_line(error: IlmekError) -> str:
     """The line of an error in the language of the command."""
-    return joined_message(said(error.given), said(error.allowed), said(error.do))
+    return joined_message(printed(error.given), printed(error.allowed), printed(error.do))
 
 
 def language_option(*, hidden: bool = False) -> click.Option:

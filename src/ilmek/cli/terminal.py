@@ -1,6 +1,6 @@
 """Output for people: short tables on standard output, notes and a progress bar on the error stream.
 
-Every text goes through `said`: it is in the language of --lang, and no text of a file or argument controls the
+Every text goes through `printed`: it is in the language of --lang, and no text of a file or argument controls the
 terminal.
 The library for tables and bars is imported when the first is drawn; JSON output does not need it.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ilmek.cli.language import said, worded
+from ilmek.cli.language import printed, worded
 from ilmek.num.compiled import COMPILATIONS
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import Sentence
@@ -35,7 +35,7 @@ def console() -> "Console":
 
 def say(text: str) -> None:
     """Print a text on standard output."""
-    console().print(said(text))
+    console().print(printed(text))
 
 
 def show_table(
@@ -59,14 +59,14 @@ def show_table(
         table.add_column(worded(heading), justify="right" if index in right else "left", no_wrap=index in wide)
     for rows in groups:
         for row in rows:
-            table.add_row(*(worded(cell) if index in words else said(cell) for index, cell in enumerate(row)))
+            table.add_row(*(worded(cell) if index in words else printed(cell) for index, cell in enumerate(row)))
         table.add_section()
     console().print(table)
 
 
 def show_pairs(pairs: Sequence[tuple[str, str]]) -> None:
     """Print names and values, one line each. Lines are never broken, so that a path can be copied."""
-    lines = [(worded(name), said(value)) for name, value in pairs]
+    lines = [(worded(name), printed(value)) for name, value in pairs]
     width = max(len(name) for name, _ in lines)
     for name, value in lines:
         click.echo(f"{name:<{width}}  {value}")
@@ -93,7 +93,7 @@ def show_checks(checks: "Sequence[Check]") -> None:
 
 def note(text: str) -> None:
     """Print a note of one line on the error stream."""
-    click.echo(said(Sentence("terminal.note", text=" ".join(said(text).split()))), err=True)
+    click.echo(printed(Sentence("terminal.note", text=" ".join(printed(text).split()))), err=True)
 
 
 @contextlib.contextmanager
@@ -115,6 +115,6 @@ def progress_bar() -> Iterator[Progress]:
             task, description=f"compiling for this processor, once: kernel {number}"
         )
         try:
-            yield Progress(lambda stage, share: bar.update(task, description=said(stage), completed=share))
+            yield Progress(lambda stage, share: bar.update(task, description=printed(stage), completed=share))
         finally:
             COMPILATIONS.listener = None

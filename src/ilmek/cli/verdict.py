@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import click
 
-from ilmek.cli.language import said, worded
+from ilmek.cli.language import printed, worded
 from ilmek.cli.terminal import note
 from ilmek.report import Check, in_words, reasons
 from ilmek.sentences import Sentence, joined
@@ -30,11 +30,11 @@ def show_verdict(checks: Sequence[Check], headline: str = CHECKS, nearest: str =
     """
     if checks:
         failed = reasons(checks)
-        click.echo(said(_outcome(checks, failed, headline)))
+        click.echo(printed(_outcome(checks, failed, headline)))
         for reason in failed:
-            click.echo(f"  {said(line(reason))}")
+            click.echo(f"  {printed(line(reason))}")
         if nearest:
-            click.echo(said(Sentence("terminal.nearest", text=nearest)))
+            click.echo(printed(Sentence("terminal.nearest", text=nearest)))
 
 
 def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:

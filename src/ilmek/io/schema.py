@@ -10,7 +10,7 @@ from ilmek.records import record
 from ilmek.sentences import location, with_location
 from ilmek.units import GREATEST, parse_quantity, read_number, real_number
 
-Table: TypeAlias = Mapping[str, object]
+Table: TypeAlias = Mapping[str, Any]
 """A table of a file that has passed its declaration, which says the keys and the kinds of their values."""
 
 

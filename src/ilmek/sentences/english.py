@@ -193,6 +193,7 @@ ENGLISH = {
     "yarn.never": "--never leaves {left} of {all} yarns",
     "yarn.two": "at least 2",
     "yarn.no-pair": "map={pair!r} is no pair",
+    "quality.example": "write it like 25x25/dm, 40raj, 130kpsi, 62500/m2, 9/60 or 90line",
     "yarn.pair-example": 'write it like "#6c9136=dark green"',
     "yarn.two-yarns": "map gives {colour} two yarns",
     "yarn.colour-once": "give each colour once",

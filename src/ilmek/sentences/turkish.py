@@ -193,6 +193,7 @@ TURKISH = {
     "yarn.never": "hiç kullanılmayanlar {all} iplikten {left} bırakıyor",
     "yarn.two": "en az 2",
     "yarn.no-pair": "map={pair!r} bir çift değil",
+    "quality.example": "25x25/dm, 40raj, 130kpsi, 62500/m2, 9/60 ya da 90line gibi yazın",
     "yarn.pair-example": 'şöyle yazın: "#6c9136=dark green"',
     "yarn.two-yarns": "eşleme {colour} rengine iki iplik veriyor",
     "yarn.colour-once": "her rengi bir kez verin",

@@ -127,7 +127,7 @@ export interface ChartAnswer {
   reason: string;
   fit: string;
   yarns: ChartYarn[];
-  ground: GroundNeed[];
+  ground: YarnNeed[];
   listed: ListedYarn[];
   assignment: AssignedColour[];
   hardest: HardRow[];
@@ -170,19 +170,37 @@ export interface ChartYarn {
   hanks: number;
 }
 /**
- * A yarn of the ground: name, use, length [m], mass and mass to buy [kg], hanks to buy, price.
+ * A line of the bill: yarn and use (pile, warp, weft, end, selvedge, binding), knots (0 but for the pile).
+ *
+ *     material      of the yarn, of MATERIALS
+ *     bought        name under which it is bought; a yarn on several positions of the creel has one, as in its list
+ *     length, mass  needed, waste included [m], [kg]
+ *     price         of what is to buy, reserve included; None where no price per kg is known
+ *     count         metric count and ply, like 5/2; "" for the ground
+ *     kept          mass that stays in the carpet [kg]
+ *     to_buy        mass with the reserve [kg]           hanks     to buy, whole ones
+ *     carved        of the mass, what is cut away along carved lines [kg]
+ *     lots          dye lots for the mass to buy         lot_rows  rows, from 1 at the lower edge, where a new lot begins
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "GroundNeed".
+ * via the `definition` "YarnNeed".
  */
-export interface GroundNeed {
+export interface YarnNeed {
   name: string;
   use: string;
+  knots: number;
   length: number;
   mass: number;
+  price: number | null;
+  count: string;
+  kept: number;
   to_buy: number;
   hanks: number;
-  price: number | null;
+  lots: number;
+  lot_rows: number[];
+  bought: string;
+  material: string;
+  carved: number;
 }
 /**
  * A yarn of the list: name and colour `#rrggbb`.
@@ -493,7 +511,7 @@ export interface CyclogramView {
   tracks: ShownTrack[];
   relations: ShownRelation[];
   exclusions: ShownExclusion[];
-  limits: ShownLimit[];
+  limits: ShownCheck[];
   laws: string[];
   lengths: number[];
 }
@@ -622,20 +640,6 @@ export interface ShownPresence {
   high: number | null;
 }
 /**
- * The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `shown_unit`.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownLimit".
- */
-export interface ShownLimit {
-  label: string;
-  why: string;
-  value: number | null;
-  limit: number;
-  shown_unit: string;
-  ok: boolean;
-}
-/**
  * A value of the input at which it reverses [rad; m], and the bodies that are in line there.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -693,7 +697,7 @@ export interface DesignView {
   title: string;
   holds: boolean;
   failed: number;
-  reasons: ShownReason[];
+  reasons: ShownCheck[];
   checks: ShownCheck[];
   results: ShownResult[];
   choices: Choice[];
@@ -703,18 +707,6 @@ export interface DesignView {
   };
   seconds: number;
   pending: boolean;
-}
-/**
- * Why the machine does not do its work, and what would cure it; texts as of a check.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownReason".
- */
-export interface ShownReason {
-  name: string;
-  value_text: string;
-  limit_text: string;
-  cure: string;
 }
 /**
  * A result; `value` where it is one number, in the SI unit `unit`. `machine` as of a check.

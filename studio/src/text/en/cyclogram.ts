@@ -102,7 +102,6 @@ export default {
   gapLeast: "gap {gap}, at least {least}",
   gapMost: "gap {gap}, at most {most}",
   apart: "{apart} apart, at least {gap}",
-  limit: "{value}, limit {limit}",
   holds: "holds",
   violated: "violated",
 } as const;

@@ -104,7 +104,6 @@ export default {
   gapLeast: "aralık {gap}, en az {least}",
   gapMost: "aralık {gap}, en çok {most}",
   apart: "{apart} ayrık, en az {gap}",
-  limit: "{value}, sınır {limit}",
   holds: "sağlanıyor",
   violated: "sağlanmıyor",
 } as const satisfies Same<typeof en>;

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { formatNumber, t } from "../../text";
-import { Button, formatQuantity, Icon, IconButton, type Judged } from "../../ui";
+import { Button, Icon, IconButton, type Judged } from "../../ui";
 import type { Shown } from "./curves";
 import { type CyclogramData, DEGREE } from "./model";
 import { ExclusionForm, RelationForm } from "./rule-forms";
@@ -104,12 +104,9 @@ export function Rules({ data, shown, locked, onChange }: RulesProps) {
           );
         })}
         {about.limits.map((one, index) => (
-          <Rule key={`l${index}`} ok={one.ok} label={one.label} why={one.why}>
+          <Rule key={`l${index}`} ok={one.ok} label={one.name} why={one.source}>
             <span>
-              {t("cyclogram.limit", {
-                value: formatQuantity(one.value ?? Number.POSITIVE_INFINITY, one.shown_unit, 4),
-                limit: formatQuantity(one.limit, one.shown_unit, 4),
-              })}
+              {one.value_text} {one.limit_text}
             </span>
           </Rule>
         ))}
@@ -157,7 +154,7 @@ export function rulesOf({ about }: Shown): Judged[] {
   return [
     ...about.relations.map((one) => ({ ...named(one), value: one.gap, limit: one.least, relation: ">=" })),
     ...about.exclusions.map((one) => ({ ...named(one), value: one.apart, limit: one.gap, relation: ">=" })),
-    ...about.limits.map(named),
+    ...about.limits,
   ];
 }
 

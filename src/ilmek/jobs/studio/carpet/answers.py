@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from ilmek.carpet.bill import YarnNeed
 from ilmek.jobs.studio.checks import ShownCheck
 from ilmek.records import JsonObject
 
@@ -89,19 +90,6 @@ class ChartYarn:
 
 
 @dataclass(frozen=True, slots=True)
-class GroundNeed:
-    """A yarn of the ground: name, use, length [m], mass and mass to buy [kg], hanks to buy, price."""
-
-    name: str
-    use: str
-    length: float
-    mass: float
-    to_buy: float
-    hanks: int
-    price: float | None
-
-
-@dataclass(frozen=True, slots=True)
 class ListedYarn:
     """A yarn of the list: name and colour `#rrggbb`."""
 
@@ -165,7 +153,7 @@ class ChartAnswer:
     reason: str
     fit: str
     yarns: tuple[ChartYarn, ...]
-    ground: tuple[GroundNeed, ...]
+    ground: tuple[YarnNeed, ...]
     listed: tuple[ListedYarn, ...]
     assignment: tuple[AssignedColour, ...]
     hardest: tuple[HardRow, ...]

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from ilmek.jobs.studio.checks import ShownCheck
 from ilmek.records import JsonObject
 from ilmek.timing.track import TrackEvent
 
@@ -103,18 +104,6 @@ class ShownExclusion:
 
 
 @dataclass(frozen=True, slots=True)
-class ShownLimit:
-    """The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `shown_unit`."""
-
-    label: str
-    why: str
-    value: float | None
-    limit: float
-    shown_unit: str
-    ok: bool
-
-
-@dataclass(frozen=True, slots=True)
 class CyclogramView:
     """A cyclogram; behind it the curves of each track as 32-bit floats, one part per track: angle [rad], position [SI],
     velocity, acceleration and jerk over time [SI/s, SI/s^2, SI/s^3], each `count` numbers. A jump has its angle twice.
@@ -127,7 +116,7 @@ class CyclogramView:
     tracks: tuple[ShownTrack, ...]
     relations: tuple[ShownRelation, ...]
     exclusions: tuple[ShownExclusion, ...]
-    limits: tuple[ShownLimit, ...]
+    limits: tuple[ShownCheck, ...]
     laws: tuple[str, ...]
     lengths: tuple[int, ...] = ()
 

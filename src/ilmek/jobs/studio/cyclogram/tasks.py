@@ -9,6 +9,7 @@ from ilmek.cams.laws import FAMILIES
 from ilmek.io.cyclogram_file import cyclogram_data, cyclogram_of_data, cyclogram_toml, timed_data
 from ilmek.jobs.cyclogram import binding_cost, cyclograms_of, limit_checks, solve, timed
 from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.cyclogram.answers import (
     CyclogramSolution,
     CyclogramView,
@@ -16,7 +17,6 @@ from ilmek.jobs.studio.cyclogram.answers import (
     NamedCyclogram,
     ShownBinding,
     ShownExclusion,
-    ShownLimit,
     ShownMoment,
     ShownMotionPart,
     ShownPresence,
@@ -83,10 +83,7 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
         tracks=tuple(_track(cyclogram, track, rows) for track, rows in drawn),
         relations=relations,
         exclusions=exclusions,
-        limits=tuple(
-            ShownLimit(check.name, check.source, check.value, check.limit, check.unit, check.ok)
-            for check in limit_checks(cyclogram)
-        ),
+        limits=tuple(map(shown_check, limit_checks(cyclogram))),
         laws=tuple(FAMILIES),
         lengths=tuple(len(part) for part in parts),
     )

@@ -10,9 +10,9 @@ from typing import Any
 
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.checks import ShownCheck, finite, printed, shown_check
+from ilmek.jobs.studio.checks import ShownCheck, finite, shown_check
 from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
-from ilmek.jobs.studio.words import all_in_page, in_page
+from ilmek.jobs.studio.words import all_in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import AnyComponent
 from ilmek.params import Params, Setting, Value
@@ -33,16 +33,6 @@ class ShownResult:
     unit: str
     meaning: str
     value: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class ShownReason:
-    """Why the machine does not do its work, and what would cure it; texts as of a check."""
-
-    name: str
-    value_text: str
-    limit_text: str
-    cure: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +57,7 @@ class DesignView:
     title: str
     holds: bool
     failed: int
-    reasons: tuple[ShownReason, ...]
+    reasons: tuple[ShownCheck, ...]
     checks: tuple[ShownCheck, ...]
     results: tuple[ShownResult, ...]
     choices: tuple[Choice, ...]
@@ -157,7 +147,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         title=report.title,
         holds=not report.failed,
         failed=sum(not check.ok for check in checks),
-        reasons=tuple(ShownReason(reason.name, *printed(reason), in_page(reason.cure)) for reason in report.reasons),
+        reasons=tuple(map(shown_check, report.reasons)),
         checks=checks,
         results=tuple(_results(report, "")),
         choices=report.all_choices,

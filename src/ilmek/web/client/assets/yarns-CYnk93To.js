@@ -1,0 +1,1 @@
+export{t as Yarns}from"./yarns-D81Zz48a.js";
