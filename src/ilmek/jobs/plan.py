@@ -10,7 +10,7 @@ from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import LoomError, ParameterError, did_you_mean
 from ilmek.factory.annealing import annealed_plan
 from ilmek.factory.heuristic import first_plan
-from ilmek.factory.model import MONEY, FactoryPlan, PlannedCarpet, SolveLimits
+from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
 from ilmek.factory.solver import SolvedPlan, import_solver, solve
 from ilmek.factory.verification import plan_faults

@@ -52,8 +52,8 @@ def kilim_printing(cloth: KilimCloth, digits: str, language: str) -> Printing:
     colours = colours_in_words(chart.colours)
     legend = Sentence("kilim.legend", colours=colours, cells=thousands(chart.knots.size)), Sentence("kilim.marks")
     warps = mounting(chart, replace(cloth.ground, selvedge_warps=0))
-    marks = kilim_marks(chart.knots, cloth.params)
-    return Printing(digits, None, warps, language, marks=marks.draw, legend=legend)
+    marks = kilim_marks(chart.knots, cloth.params).draw
+    return Printing(digits, None, warps, language, marks=marks, legend=legend)
 
 
 def kilim_marks(chart_knots: Indices, params: KilimParams) -> KilimMarks:
