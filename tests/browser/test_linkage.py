@@ -164,5 +164,5 @@ def test_an_optional_key_is_added_and_a_body_is_chosen(page: Page, running: Stud
         data_of(running.project, path)["bodies"]
     )
     springs.get_by_label("Add …").select_option("damping")
-    expect(springs.get_by_label("balance damping")).to_have_value("1 N*s/m")
+    expect(springs.get_by_label("balance damping")).to_have_value("1N*s/m")
     until(lambda: data_of(running.project, path)["springs"]["balance"].get("damping") == "1N*s/m")

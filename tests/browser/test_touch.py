@@ -33,8 +33,9 @@ class Fingers:
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         """A finger goes along a line."""
         self._send("touchStart", start)
+        (x, y), (to_x, to_y) = start, end
         for step in (0.2, 0.4, 0.6, 0.8, 1.0):
-            self._send("touchMove", tuple(a + step * (b - a) for a, b in zip(start, end, strict=True)))  # type: ignore[arg-type]
+            self._send("touchMove", (x + step * (to_x - x), y + step * (to_y - y)))
         self._send("touchEnd")
 
 
