@@ -1,6 +1,5 @@
 from ilmek.api.machine_runs import MachineRun as MachineRun
 from ilmek.cams.follower_dynamics import Response as Response
-from ilmek.cams.programme import FollowerMotion as FollowerMotion
 from ilmek.dynamics.inverse_run import InverseRun as InverseRun
 from ilmek.io.mechanism_file import MechanismFile as MechanismFile
 from ilmek.io.picture import Picture as Picture
