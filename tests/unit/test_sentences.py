@@ -44,7 +44,7 @@ FAMILIES += (
     "chart.below",
 )
 FAMILIES += ("chart.above", "order.approved", "order.changes", "order.signed", "order.warp-beam", "order.cloth-beam")
-FAMILIES += ("order.fibre-",)
+FAMILIES += ("order.fibre-", "order.shape-", "order.binding-", "order.sample")
 """Begins of keys that are put together."""
 
 
