@@ -98,7 +98,8 @@ class PlanResult:
 
     def end(self, order: int) -> int | None:
         """The end of an order's last carpet [min]; None where it is not woven."""
-        return max((carpet.end for carpet in (*self.carpets(order), *self.begun(order))), default=None)
+        ends = [carpet.end for carpet in self.carpets(order)] + [carpet.end for carpet in self.begun(order)]
+        return max(ends, default=None)
 
     def cost(self, carpet: PlannedCarpet) -> int:
         """The cost of a carpet: of its loom and its delay."""

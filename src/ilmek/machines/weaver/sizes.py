@@ -6,7 +6,7 @@ carriage needs a wider motor than has room steps more slowly.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT
@@ -41,7 +41,7 @@ GREATEST = {
 """The greatest of each size [m, kg], where a check fails; assumed by this project."""
 
 
-def larger_sizes(weaver: Weaver) -> Mapping[str, object]:
+def larger_sizes(weaver: Weaver) -> JsonObject:
     """The parameters of a head that its loads need larger, by name; empty where all are enough."""
     params, own = weaver.params, weaver.params.opener
     height = min(max(own.height, tools_height(weaver)), max(own.height, GREATEST["height"]))
