@@ -49,8 +49,7 @@ def forward_dynamics(
     `ForwardRun.end`. Raises MechanismError for no moving mass, a start at which the mechanism does not close, and
     values that are not finite.
 
-    >>> from ilmek import four_bar
-    >>> from ilmek.dynamics import bar
+    >>> from ilmek import bar, four_bar
     >>> masses = {"crank": bar(0, 0.060, mass=0.1), "rocker": bar(0, 0.230, mass=0.4)}
     >>> run = forward_dynamics(four_bar(0.300, 0.060, 0.200, 0.230), masses, "0.5s", drive=MotorDrive(2.0, "100rpm"))
     >>> run.end.reason, bool(run.energy_error < 1e-6), round(float(run.speed[-1]), 2)

@@ -268,7 +268,7 @@ def inverse_dynamics(
     Raises MechanismError for an unknown body or joint, and for a motion at rest without loads, of which all forces are
     0. A sample that cannot be solved does not raise.
 
-    >>> from ilmek.dynamics import Gravity, bar
+    >>> from ilmek import Gravity, bar
     >>> beat_up = four_bar(0.300, 0.060, 0.200, 0.230)
     >>> motion = solve(beat_up, np.linspace(0, 2 * np.pi, 73), speed=15.5)
     >>> forces = inverse_dynamics(motion, {"rocker": bar(0, 0.230, mass=0.4)}, [Gravity(-9.81j)])

@@ -14,15 +14,13 @@ from ilmek.cams.oscillating import OscillatingCam as OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam as OscillatingFlatCam
 from ilmek.cams.plate import PlateCam as PlateCam
 from ilmek.cams.programme import CamProgramme as CamProgramme
+from ilmek.cams.programme import FollowerMotion as FollowerMotion
 from ilmek.cams.programme import all_jumps as all_jumps
 from ilmek.cams.programme import joined as joined
 from ilmek.cams.segments import CamSegment as CamSegment
 from ilmek.cams.segments import blend as blend
-from ilmek.cams.segments import dwell as dwell
 from ilmek.cams.segments import even as even
-from ilmek.cams.segments import fall as fall
 from ilmek.cams.segments import free as free
-from ilmek.cams.segments import rise as rise
 from ilmek.cams.sizing import CamLimits as CamLimits
 from ilmek.cams.sizing import best_offset as best_offset
 from ilmek.cams.sizing import smallest_prime as smallest_prime

@@ -2,7 +2,6 @@ from ilmek.carpet.bill import YarnBill as YarnBill
 from ilmek.carpet.bill import yarn_bill as yarn_bill
 from ilmek.carpet.calling import CallStep as CallStep
 from ilmek.carpet.chart import Chart as Chart
-from ilmek.carpet.chart_making import make_chart as make_chart
 from ilmek.carpet.colour import srgb_to_lab as srgb_to_lab
 from ilmek.carpet.colour_difference import ciede2000 as ciede2000
 from ilmek.carpet.overlay import TiedKnots as TiedKnots

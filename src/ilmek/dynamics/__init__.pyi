@@ -6,10 +6,6 @@ from ilmek.dynamics.forward import at_speed as at_speed
 from ilmek.dynamics.forward_run import ForwardRun as ForwardRun
 from ilmek.dynamics.forward_run import ForwardState as ForwardState
 from ilmek.dynamics.inertia import Inertia as Inertia
-from ilmek.dynamics.inertia import bar as bar
-from ilmek.dynamics.inertia import bar_mass as bar_mass
-from ilmek.dynamics.inertia import combined as combined
-from ilmek.dynamics.inertia import point_mass as point_mass
 from ilmek.dynamics.inverse import Forces as Forces
 from ilmek.dynamics.joint_friction import PinFriction as PinFriction
 from ilmek.dynamics.joint_friction import SlideFriction as SlideFriction

@@ -2,8 +2,6 @@ from ilmek.linkage.batch import solve_batch as solve_batch
 from ilmek.linkage.circuits import Circuit as Circuit
 from ilmek.linkage.coupler_curve import CouplerCurve as CouplerCurve
 from ilmek.linkage.extremes import dwells as dwells
-from ilmek.linkage.fourbar import four_bar as four_bar
-from ilmek.linkage.fourbar import slider_crank as slider_crank
 from ilmek.linkage.instant_centres import centrodes as centrodes
 from ilmek.linkage.judged import JudgedMechanism as JudgedMechanism
 from ilmek.linkage.model import Body as Body

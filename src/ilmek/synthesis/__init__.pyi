@@ -14,7 +14,6 @@ from ilmek.synthesis.four_bar import LinkLengths as LinkLengths
 from ilmek.synthesis.freudenstein import function_generators as function_generators
 from ilmek.synthesis.function import Function as Function
 from ilmek.synthesis.path.fit import PathFit as PathFit
-from ilmek.synthesis.path.search import path_four_bars as path_four_bars
 from ilmek.synthesis.path.task import PathTask as PathTask
 from ilmek.synthesis.result import FourBarSolution as FourBarSolution
 from ilmek.synthesis.result import LeftOut as LeftOut
