@@ -117,7 +117,7 @@ def test_the_front_of_the_rows_of_table_1_is_that_of_its_printed_numbers(tmp_pat
     lines = [f"{phi}deg,{beta}deg" for phi, beta in [*rows, (120, 75)]]
     table.write_text("\n".join(["crank_rotation,beta", *lines]))
     goals = ["most transmission_angle_min", "crank_coupler_ratio"]
-    found = ilmek.study("beat-up", {}, designs=table, fixed={"swing": SWING, "members": 10}, goals=goals)
+    found = ilmek.study("beat-up", table, fixed={"swing": SWING, "members": 10}, goals=goals)
     assert found.reasons[0][0] == "refused"
     costs = np.column_stack([-found.values("transmission_angle_min"), found.values("crank_coupler_ratio")])[:-1]
     assert {rows[number] for number in np.flatnonzero(front(costs))} == best

@@ -16,7 +16,7 @@ from ilmek.progress import SILENT, Progress
 
 def study(
     target: str | Path,
-    vary: Mapping[str, str],
+    vary: Mapping[str, str] | str | Path,
     /,
     *,
     goals: Sequence[str] = (),
@@ -30,7 +30,6 @@ def study(
     correlate: Sequence[str] = (),
     yield_target: float = 0.0,
     costs: Mapping[str, float] = MappingProxyType({}),
-    designs: str | Path | None = None,
     file: str | Path | None = None,
     workers: int = 1,
     cluster: str | None = None,
@@ -39,14 +38,13 @@ def study(
     """Study a machine of the catalogue, a machine file or a mechanism file over ranges of its parameters.
 
     vary      name -> range "20deg..40deg", values "5, 6, 8", tolerance "80mm+-0.05mm" or class "20mm H7"; a
-              distribution may follow: uniform, normal, triangular
+              distribution may follow: uniform, normal, triangular; or a table of designs (CSV), a column a parameter
     goals     results to make least, or "most NAME"          hold     limits, "transmission_angle_min >= 40deg"
     record    further results to keep                        fixed    settings that do not vary
     method    sweep, local, morris, sobol, tolerance, optimum
     sampling  sobol, latin, grid                             samples  number of designs; default: by the method
     correlate  correlations of tolerances, "a, b = 0.8"
     yield_target  find the tolerances of least cost for it [1]     costs  variable -> relative cost of its tolerance
-    designs   table of the designs (CSV), a column a parameter, in place of ranges: vary is then {}
     file      results file (SQLite); designs that it has are not computed again; default: none is kept
     workers   processes                                      cluster  address of a Dask scheduler
     The results are arrays: `values(name)`, `table()`, `frame()`, `rows.feasible`, `front`. Raises ParameterError for
@@ -57,11 +55,11 @@ def study(
     (4, True)
     """
     given = Arguments("a study")
-
+    table = isinstance(vary, str | Path)
     order = StudyOrder(
         str(given.path("target", target)),
         given.mapping("fixed", fixed, lambda _, value: value),
-        given.mapping("vary", vary, given.text),
+        {} if table else given.mapping("vary", vary, given.text),
         given.sequence("goals", goals, str),
         given.sequence("hold", hold, str),
         given.sequence("record", record, str),
@@ -72,7 +70,7 @@ def study(
         correlate=given.sequence("correlate", correlate, str),
         yield_target=given.number("yield_target", yield_target),
         costs=given.mapping("costs", costs, given.number),
-        designs="" if designs is None else str(given.path("designs", designs)),
+        designs=str(given.path("vary", vary)) if table else "",
     )
     kept = None if file is None else given.path("file", file)
     address = None if cluster is None else given.text("cluster", cluster)

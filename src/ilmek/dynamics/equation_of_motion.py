@@ -31,6 +31,9 @@ from ilmek.linkage.model import GROUND
 from ilmek.linkage.solve import solve
 from ilmek.records import record
 
+AHEAD = 1e-6
+"""How far ahead the direction is sought in which a joint begins to move [rad; m]."""
+
 
 @record
 class StateTerms:
@@ -196,20 +199,31 @@ class GeneralEquation:
         terms, efforts = self.terms(time, row), self.efforts(time, row)
         if terms is None:
             return self
-        seconds = np.stack([second_rate(terms.poses, terms.poses.joints[law.joint]) for law in self.laws[: self.dry]])
-        seconds = seconds[:, : len(efforts) + 1]
+        held = np.array(self.signs)
+        held[: self.dry][resting] = 0.0
+        seconds = self._seconds(terms)
+        if not row[len(efforts) : 2 * len(efforts)].any():
+            # Where all inputs rest at a dead centre of the joint, its acceleration is 0 too: look ahead.
+            begun, _ = self.moved(terms, efforts, held.tolist())
+            ahead = row.copy()
+            ahead[: len(efforts)] += AHEAD * begun / (np.abs(begun).max() or 1.0)
+            later = self.terms(time, ahead)
+            seconds = seconds if later is None else self._seconds(later)
 
         def starts(signs: FloatArray) -> FloatArray:
             acceleration, _ = self.moved(terms, efforts, signs.tolist())
             return seconds[:, 0] + (seconds[:, 1:] - seconds[:, :1]) @ acceleration
 
-        held = np.array(self.signs)
-        held[: self.dry][resting] = 0.0
         begins = np.sign(starts(held))
         held[: self.dry][resting] = begins[resting]
         if not (starts(held) * begins > 0)[resting].all():
             return None
         return replace(self, signs=tuple(held.tolist()))
+
+    def _seconds(self, terms: StateTerms) -> Float[np.ndarray, "dry accelerations"]:
+        """Accelerations in the joints with dry friction, without and with each unit acceleration of an input."""
+        joints = [terms.poses.joints[law.joint] for law in self.laws[: self.dry]]
+        return np.stack([second_rate(terms.poses, joint) for joint in joints])[:, : len(self.drives) + 1]
 
 
 def general_equation(reduced: ReducedMechanism, drives: Sequence[Drive | None], start: ForwardState) -> GeneralEquation:

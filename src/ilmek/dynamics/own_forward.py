@@ -49,12 +49,14 @@ class OwnForward:
     def effort_error(self) -> float:
         """Greatest difference between the drive's effort and the effort for the accelerations, relative [1].
 
-        Relative to the greatest of that effort and of the effort J q'' of the inertia: a machine may coast.
+        Relative to the greatest of that effort and of the effort J q'' of the inertia: a machine may coast. A sample at
+        rest is left out: the direction of friction is not determined there.
         """
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         inertia = self.run.reduced.terms(self.run.position).inertia
         size = np.fmax(greatest(required), greatest(inertia * self.run.acceleration))
-        return greatest(required - self.run.effort) / float(size) if size > 0 else 0.0
+        moving = np.where(self.run.speed != 0, required - self.run.effort, 0.0)
+        return greatest(moving) / float(size) if size > 0 else 0.0
 
     @property
     def checks(self) -> tuple[Check, ...]:
