@@ -49,7 +49,16 @@ def woven(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
 
 def test_weave_makes_its_files(woven: tuple[Path, Any]) -> None:
     folder, found = woven
-    not_by_default = {"chart.json", "wall.pdf", "chart.bmp", "chart.oxs", "proposed.toml", "paper.html"}
+    not_by_default = {
+        "chart.json",
+        "wall.pdf",
+        "chart.bmp",
+        "chart.tiff",
+        "chart.oxs",
+        "chart.wif",
+        "proposed.toml",
+        "paper.html",
+    }
     names = [file.name for file in FILES if file.name not in not_by_default]
     assert found["files"] == [str(folder / name) for name in names]
     assert sorted(path.name for path in folder.iterdir()) == sorted([*names, ".ilmek"])

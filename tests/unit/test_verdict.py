@@ -136,6 +136,7 @@ def test_a_loom_that_cannot_be_designed_leaves_chart_yarn_and_the_reason(
 ) -> None:
     for module in ("loom", "wishes"):
         monkeypatch.setattr(f"ilmek.jobs.{module}.design", cannot)
+    monkeypatch.setattr("ilmek.jobs.loom.any_loom", lambda _: False)
     result = run(
         "weave",
         MEDALLION,
