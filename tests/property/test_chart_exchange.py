@@ -14,7 +14,7 @@ from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart.bmp import write_chart_bmp
+from ilmek.io.chart.indexed import write_chart_bmp
 from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.oxs_reading import read_chart_oxs
 from ilmek.io.chart.png import read_chart_png, write_chart_png

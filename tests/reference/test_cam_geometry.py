@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from ilmek.cams import profile
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 from ilmek.cams.limits import (
-    PlateCam,
     area,
     concave_radius_min,
     convex_radius_min,
     pressure_angle_max,
     undercut,
 )
+from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.errors import ParameterError

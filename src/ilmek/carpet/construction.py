@@ -61,7 +61,7 @@ def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: Yarn
 
     >>> from ilmek import read_yarns
     >>> from ilmek.carpet.shape import with_ends
-    >>> chart = with_ends(Chart([[0, 0], [0, 0]], read_yarns()[:1], "2x2cm", "10x10/dm", "symmetric"), 1)
+    >>> chart = with_ends(Chart.of([[0, 0], [0, 0]], read_yarns()[:1], "2x2cm", "10x10/dm"), 1)
     >>> made = construction_of(chart, chart.bill(), ShapeParams(), YarnPlanParams())
     >>> made.shape, made.ends, made.piles[0].knots
     ('rectangle', (0.01, 0.01), 4)

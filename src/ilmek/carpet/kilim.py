@@ -150,7 +150,7 @@ def pick_length(cells: int, joins: int, params: KilimParams, ground: GroundParam
     """Length of weft for a pick of a run [m].
 
     >>> round(pick_length(25, 0, KilimParams()) * 1e3, 1)
-    141.6
+    144.7
     """
     ground = ground or GroundParams()
     pitch = 1 / params.warps

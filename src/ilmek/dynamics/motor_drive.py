@@ -30,7 +30,7 @@ class MotorDrive:
     values that are not finite, a speed of 0, a slip that is not above 0, a negative inertia.
 
     >>> motor = MotorDrive("2N*m", "1500rpm", slip=1.0, sharp=True)
-    >>> round(motor.at("750rpm"), 12), motor.at(0.0)
+    >>> round(motor.at(25 * math.pi), 12), motor.at(0.0)
     (1.0, 2.0)
     """
 

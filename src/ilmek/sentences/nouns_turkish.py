@@ -217,7 +217,8 @@ def named(text: str) -> str:
 def _listed(text: str) -> str:
     pieces = text.split(", ")
     known = [_piece(piece) for piece in pieces]
-    if any(new is None and _SENTENCE.search(piece) for new, piece in zip(known, pieces, strict=True)):
+    unknown = any(new is None and _SENTENCE.search(piece) for new, piece in zip(known, pieces, strict=True))
+    if unknown and any(piece in _PHRASES for piece in pieces):  # a source is not said in two languages
         return _piece(text) or text
     return _piece(text) or ", ".join(new or piece for new, piece in zip(known, pieces, strict=True))
 
