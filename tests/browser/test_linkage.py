@@ -155,14 +155,14 @@ def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, runn
     assert violations(page) == []
 
 
-def test_an_optional_key_is_added_and_a_body_is_chosen(page: Page, running: Studio) -> None:
+def test_an_optional_key_is_added_and_a_point_is_chosen(page: Page, running: Studio) -> None:
     path = "linkages/slider-crank-press.toml"
     open_view(page, running, "linkage/slider-crank-press")
     page.get_by_role("tab", name="Parts").click()
     springs = page.locator(".linkage-numbers").filter(has_text="Springs")
-    assert springs.get_by_label("balance between 1 body").locator("option").all_inner_texts() == list(
-        data_of(running.project, path)["bodies"]
-    )
+    offered = springs.get_by_label("balance between point 1").locator("option").all_inner_texts()
+    assert {"ground.S", "ram.T", "crank.A"} <= set(offered)
+    assert {name.partition(".")[0] for name in offered} == set(data_of(running.project, path)["bodies"])
     springs.get_by_label("Add …").select_option("damping")
     expect(springs.get_by_label("balance damping")).to_have_value("1N*s/m")
     until(lambda: data_of(running.project, path)["springs"]["balance"].get("damping") == "1N*s/m")
