@@ -318,7 +318,6 @@ def test_a_project_without_a_loom_says_what_to_do(page: Page, running: Studio) -
 
 def test_the_loom_is_saved_as_glb(page: Page, running: Studio, tmp_path: Path) -> None:
     open_view(page, running, "loom/machines/loom.toml")
-    page.get_by_text("Files", exact=True).last.click()
     with page.expect_download(timeout=PATIENCE) as download:
         page.get_by_role("button", name="Save as GLB").click()
     download.value.save_as(tmp_path / "loom.glb")
