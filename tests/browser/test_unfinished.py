@@ -92,8 +92,8 @@ STATES = {
     "linkages/named.toml": State(
         linkage(BARS + LOAD, drive=DRIVEN),
         "linkage/named",
-        ("force1 on body", "force1 on point"),
-        ("force1 on x", "force1 on y"),
+        ("force1 on",),
+        ("force1 on body", "force1 on x"),
         "Parts",
     ),
     "synthesis/path.toml": State(task("path", "points", ""), "synthesis/path", ("4 more points are needed",)),
