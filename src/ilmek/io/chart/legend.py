@@ -15,7 +15,7 @@ from ilmek.io.chart.lettering import cut_line, line_width, two_lines
 from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import NO_SIGN, SIGNS, STRONG, TEXT
 from ilmek.records import JsonObject
-from ilmek.sentences import Sentence, noun, translated
+from ilmek.sentences import Name, Sentence, noun, translated
 from ilmek.units import cm, format_number, g, mm
 
 _LEFT, _TOP, _LOW = 54.0, 800.0, 50.0
@@ -23,8 +23,9 @@ _GREY, _RULE = (0.36, 0.40, 0.44), 0.75
 _LINE, _GAP = 19.0, 26.0
 """Height of an entry, and of the gap between two parts of the page [pt]."""
 
-_ALONE, _WIDTH = 330.0, 295.0
-"""Width of an entry with its knots and share, alone and with the columns of the need at its right [pt]."""
+_ALONE, _WIDTH, _ACROSS = 330.0, 295.0, 487.0
+"""Width of an entry with its knots and share, alone and with the columns of the need at its right, and of a note [pt].
+"""
 
 _COLUMNS = (
     (Sentence("legend.length"), 348.0),
@@ -81,10 +82,13 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
     for note in (*_of_the_pile(chart, printing.pile), *notes):
-        y = _room(canvas, y, _LINE, bool(needs))
-        canvas.setFont(TEXT, 9)
-        canvas.setFillGray(0.1)
-        canvas.write(_LEFT, y, note)
+        rest = canvas.numerals(note)
+        while rest:
+            line, rest = two_lines(rest, 9, _ACROSS)
+            y = _room(canvas, y, _LINE, bool(needs))
+            canvas.setFont(TEXT, 9)
+            canvas.setFillGray(0.1)
+            canvas.write(_LEFT, y, Name(line))
     if printing.bill:
         y = _draw_ground(canvas, printing.bill, y)
     if printing.mounting:
