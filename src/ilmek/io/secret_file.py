@@ -2,10 +2,12 @@
 
 import os
 import stat
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ilmek.errors import LoomError, OutputError
+from ilmek.io.output import disk
 from ilmek.io.regular_file import open_regular
 
 LARGEST_SECRET = 100_000
@@ -35,6 +37,25 @@ def read_bounded(path: Path, noun: str, *, secret: bool = True) -> bytes:
         if status.st_uid not in (0, os.geteuid()):
             raise LoomError(f"the {noun} file {path} belongs to another user", do="give a file of yours")
     return data
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """One process or thread at a time in a folder of settings, so that what belongs together is of one of them.
+
+    Raises OutputError where the folder cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, mode=0o700, exist_ok=True)
+        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o600)
+    except OSError as failed:
+        raise OutputError(f"{folder} cannot be written ({failed.strerror})") from None
+    try:
+        if disk.fcntl is not None:
+            disk.fcntl.flock(handle, disk.fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
 
 
 def write_secret(path: Path, data: bytes) -> None:

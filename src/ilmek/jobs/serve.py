@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ilmek import __version__
 from ilmek.errors import LoomError, ParameterError, restated
 from ilmek.io.programme_file import open_programme
-from ilmek.io.secret_file import config_folder, read_bounded, write_secret
+from ilmek.io.secret_file import alone_in, config_folder, read_bounded, write_secret
 from ilmek.io.users_file import StoredUser, check_user_name, read_users, write_users
 from ilmek.loom.control.view import ControllerView
 from ilmek.loom.operations import LoomProgramme
@@ -167,15 +167,16 @@ def kept_credentials(name: str, uri: str, title: str) -> "Credentials":
 
     folder = config_folder("opcua")
     paths = folder / f"{name}-certificate.pem", folder / f"{name}-key.pem"
-    if all(path.exists() for path in paths):
-        try:
-            kept, private = (read_bounded(path, "certificate") for path in paths)
-            return parse_credentials(kept, private, uri)
-        except OtherApplicationError:
-            pass  # of a loom whose serial number begins alike
-    credentials = make_credentials(uri, title, ("127.0.0.1", "::1", "localhost"))
-    for path, data in zip(paths, credentials_pem(credentials), strict=True):
-        write_secret(path, data)
+    with alone_in(folder):  # a host and a plant that begin at once have one certificate, with its key
+        if all(path.exists() for path in paths):
+            try:
+                kept, private = (read_bounded(path, "certificate") for path in paths)
+                return parse_credentials(kept, private, uri)
+            except OtherApplicationError:
+                pass  # of a loom whose serial number begins alike
+        credentials = make_credentials(uri, title, ("127.0.0.1", "::1", "localhost"))
+        for path, data in zip(paths, credentials_pem(credentials), strict=True):
+            write_secret(path, data)
     return credentials
 
 
