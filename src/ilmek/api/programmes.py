@@ -2,6 +2,7 @@
 
 from __future__ import annotations  # so that `help` shows the aliases
 
+from datetime import datetime
 from pathlib import Path
 from types import MappingProxyType
 
@@ -9,6 +10,7 @@ from ilmek.api.carpets import Settings
 from ilmek.arguments import Arguments, Quantity
 from ilmek.errors import ParameterError
 from ilmek.io.output.outputs import Outputs
+from ilmek.io.plan_file import read_instant
 from ilmek.io.plc.targets import TARGETS
 from ilmek.jobs.check import CheckResult, check_programme
 from ilmek.jobs.convert import convert_programme
@@ -159,11 +161,19 @@ def plc(
 
 
 def plan(
-    orders: str | Path, looms: str | Path, *, time_limit: Quantity | None = None, progress: Progress = SILENT
+    orders: str | Path,
+    looms: str | Path,
+    *,
+    time_limit: Quantity | None = None,
+    now: str | datetime | None = None,
+    against: str | Path | None = None,
+    progress: Progress = SILENT,
 ) -> PlanResult:
     """Plan the orders of a file on the looms of another: which carpet on which loom when, at the least cost.
 
     time_limit  of the search [s], like "60s"; default: by the number of carpets
+    now         begin of the plan, "2026-12-03T10:00": what is on the looms stays; default: that of the file
+    against     plan.json of an earlier plan, with whose ends those of the orders are compared
     Raises an IlmekError, with file and line, for what cannot be read; Cancelled.
 
     >>> import shutil, tempfile
@@ -182,7 +192,14 @@ def plan(
     if limit is not None and limit < LEAST_LIMIT:
         raise ParameterError(f"a time_limit of {limit:g} s", allowed=f"{LEAST_LIMIT:g} s to {MOST_LIMIT:g} s")
     on = given.record("progress", progress, Progress)
-    return plan_factory(given.path("orders", orders), given.path("looms", looms), time_limit=limit, progress=on)
+    return plan_factory(
+        given.path("orders", orders),
+        given.path("looms", looms),
+        time_limit=limit,
+        now=None if now is None else read_instant("now", now),
+        against=None if against is None else given.path("against", against),
+        progress=on,
+    )
 
 
 def _file(programme: object) -> Path:

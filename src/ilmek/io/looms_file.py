@@ -318,14 +318,14 @@ def _weaving(row: FactoryEntry, folder: Path) -> WeavingEntry:
         entry.refuse(ParameterError("is of none or of both of run and rows", allowed="one of them"))
     if not entry.has("run"):
         since = entry.instant("since") if entry.has("since") else None
-        return WeavingEntry(entry.label("order"), None, entry.count("rows", 0, 0, MOST_ROWS), since)
+        return WeavingEntry(entry.text("order"), None, entry.count("rows", 0, 0, MOST_ROWS), since)
     if entry.has("since"):
         entry.refuse(ParameterError("since of a run", do="leave it out: its journal has the time"), "since")
     try:
         journal = file_beside(folder, f"{entry.text('run')}/{JOURNAL}", "looms")
     except ParameterError as error:
         entry.refuse(error, "run")
-    return WeavingEntry(entry.label("order"), journal.parent)
+    return WeavingEntry(entry.text("order"), journal.parent)
 
 
 def _hand(row: FactoryEntry) -> WeaversLoom | None:

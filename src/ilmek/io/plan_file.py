@@ -23,7 +23,7 @@ def read_ends(path: Path) -> dict[str, datetime]:
         raise ParameterError(f"{path}: its orders have no name and end", do="plan again with --out") from None
 
 
-def read_instant(option: str, text: str) -> datetime:
+def read_instant(option: str, text: object) -> datetime:
     """A local date and time. Raises ParameterError, with the option."""
     try:
         return datetime_of(text)

@@ -3,7 +3,7 @@
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from ilmek.errors import LoomError, OutputError
@@ -45,17 +45,13 @@ def alone_in(folder: Path) -> Iterator[None]:
 
     Raises OutputError where the folder cannot be made.
     """
-    try:
-        folder.mkdir(parents=True, mode=0o700, exist_ok=True)
-        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o600)
-    except OSError as failed:
-        raise OutputError(f"{folder} cannot be written ({failed.strerror})") from None
-    try:
-        if disk.fcntl is not None:
-            disk.fcntl.flock(handle, disk.fcntl.LOCK_EX)
+    with ExitStack() as held:
+        try:
+            folder.mkdir(parents=True, mode=0o700, exist_ok=True)
+            held.enter_context(disk.locked(folder / ".lock"))
+        except OSError as failed:
+            raise OutputError(f"{folder} cannot be written ({failed.strerror})") from None
         yield
-    finally:
-        os.close(handle)
 
 
 def write_secret(path: Path, data: bytes) -> None:

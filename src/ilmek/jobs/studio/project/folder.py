@@ -133,17 +133,13 @@ class ProjectFolder:
     def locked(self) -> Iterator[None]:
         """Held while files are changed: changes of two tabs, workers or studios come one after the other."""
         own = self.base / OWN
-        try:
-            own.mkdir(mode=0o700, exist_ok=True)
-            handle = os.open(own / "lock", os.O_RDWR | os.O_CREAT, 0o600)
-        except OSError as error:
-            raise cannot("be written", own, error) from None
-        try:
-            if disk.fcntl is not None:
-                disk.fcntl.flock(handle, disk.fcntl.LOCK_EX)
+        with contextlib.ExitStack() as held:
+            try:
+                own.mkdir(mode=0o700, exist_ok=True)
+                held.enter_context(disk.locked(own / "lock"))
+            except OSError as error:
+                raise cannot("be written", own, error) from None
             yield
-        finally:
-            os.close(handle)
 
 
 def natural(path: str) -> tuple[tuple[int | str, ...], str]:
