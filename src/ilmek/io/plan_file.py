@@ -7,13 +7,16 @@ from ilmek.errors import ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import datetime_of
 
+LARGEST = 10_000_000
+"""Largest plan [bytes]; a carpet takes 5 kB."""
+
 
 def read_ends(path: Path) -> dict[str, datetime]:
     """When each order of a plan ends, by its name; those that are not woven are left out.
 
     Raises ParameterError for a file that `ilmek plan` has not written.
     """
-    data = read_data(path, "plan", ParameterError).data
+    data = read_data(path, "plan", ParameterError, largest=LARGEST).data
     orders = data.get("orders") if isinstance(data, dict) and data.get("job") == "plan" else None
     if not isinstance(orders, list):
         raise ParameterError(f"{path} is no plan", allowed="plan.json of `ilmek plan --out`", do="give one")
