@@ -242,6 +242,12 @@ life of the loopers' bearings = lüper yataklarının ömrü
 needle drive with its bearing plates along the shafts = miller boyunca yatak levhalarıyla iğne tahriği
 needles out of their bar = çubuğundan çıkan iğneler | deflection of the needle bar = iğne çubuğunun sehimi
 stress of the needle bar = iğne çubuğunun gerilmesi
+knife past the hook's under edge, below its upper one = bıçak kancanın alt kenarının üstünde, üst kenarının altında
+knife under the next loop = sıradaki ilmeğin altında bıçak
+knife beside the hook's beak the whole turn = bütün dönüşte kanca gagasının yanında bıçak
+needle, hook and knife beside each other = yan yana iğne, kanca ve bıçak
+transmission angle of the knives' rocker = bıçak salınım kolunun iletim açısı
+power balance of the knife's forces = bıçak kuvvetlerinin güç dengesi
 transmission angle of the looper's rocker = lüper salınım kolunun iletim açısı
 twist of a needle against its looper = lüperine karşı iğnenin dönmesi
 torsional frequency over that of the shaft = burulma frekansının milinkine oranı

@@ -14,7 +14,6 @@ from ilmek.elements.belts import BELTS
 from ilmek.elements.motors import Motor
 from ilmek.elements.reducers import DIRECT, Reducer
 from ilmek.linkage.model import GROUND
-from ilmek.linkage.solve import solve
 from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
 from ilmek.machines.tufting.links import needle_parts as drive_parts
 from ilmek.machines.tufting.strength import needle_sizes
@@ -30,10 +29,11 @@ from ilmek.machines.tufting_machine.frame import (
     roller_axes,
     scroll_height,
 )
-from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
-from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
+from ilmek.machines.tufting_machine.layout import TuftingLayout, layout
 from ilmek.machines.tufting_machine.needle_parts import DOWN, NEEDLE_BAR, needle_heights, needle_parts
 from ilmek.machines.tufting_machine.params import SCROLLS
+from ilmek.machines.tufting_machine.rocker_forces import RockerForces
+from ilmek.machines.tufting_machine.rocker_parts import CLEAR, NAME
 from ilmek.machines.tufting_machine.scrolls import scroll_bodies
 from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
 from ilmek.part import catalogue
@@ -165,7 +165,7 @@ def _bored_bar(machine: TuftingMachine, rods: tuple[float, ...], before: int) ->
 
 def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     """The loopers' crank shaft with its pulley, and the looper drives on it and on their shafts."""
-    machine, forces = laid.machine, laid.machine.looper_forces
+    machine = laid.machine
     (first, last), diameter = laid.ends, machine.params.looper.shaft
     end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
     shaft = Part(
@@ -180,17 +180,26 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     turned = Joint(JointKind.PIN, motion=SceneMotion(TURN, angle, np.zeros((POSES, 3)), angle))
     cranks = RigidBody(LOOPER_CRANKS, parts, FRAME, turned, (placement(at.real, at.imag),))
     bodies, loops = [cranks], list[Closure]()
-    for drive in range(machine.params.drives):
-        suffix, lag = f" {drive + 1}", drive * machine.params.needle.phase
-        motion = solve(
-            forces.plan, {CRANK: angle + machine.looper.offset - lag}, {CRANK: machine.params.needle.speed}
-        ).require()
-        z = laid.middle(drive) - forces.parts.level
-        own = linkage_bodies(forces.parts.linkage, motion, {ROCKER: forces.parts.carried(drive)}, z=z, suffix=suffix)
-        crank = body_id(NAME, CRANK) + suffix
-        bodies += (keyed(body, cranks) if body.id == crank else body for body in own)
-        loops += linkage_closures(NAME, motion.plan.mechanism, suffix)
+    for number in range(machine.params.drives):
+        for forces in machine.below:
+            own, closed = _swung(forces, number, laid, cranks)
+            bodies += own
+            loops += closed
     return bodies, loops
+
+
+def _swung(
+    forces: RockerForces, number: int, laid: TuftingLayout, cranks: RigidBody
+) -> tuple[list[RigidBody], tuple[Closure, ...]]:
+    """A drive of loopers or knives, counted from 0, on their crank shaft."""
+    suffix, made, needle = f" {number + 1}", forces.parts.rocker, laid.machine.params.needle
+    motion = forces.moves.moved(np.linspace(0.0, turn, POSES) - number * needle.phase, needle.speed)
+    crank = body_id(NAME, forces.moves.drive.bodies[0]) + suffix
+    carried = {forces.moves.drive.bodies[2]: forces.parts.carried(number)}
+    z = laid.middle(number) + made.aside - made.level
+    own = linkage_bodies(made.linkage, motion, carried, z=z, suffix=suffix)
+    bodies = [keyed(body, cranks) if body.id == crank else body for body in own]
+    return bodies, linkage_closures(NAME, motion.plan.mechanism, suffix)
 
 
 def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:
