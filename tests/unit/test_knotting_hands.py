@@ -18,6 +18,7 @@ from ilmek.machines.knotting_four_bar.hands.parts import HandParts, hands_tree
 from ilmek.machines.knotting_four_bar.hands.section import NEIGHBOURS, InclinedSection, least_inclination
 from ilmek.part.contacts import contacts
 from ilmek.report import Animation
+from ilmek.sentences.nouns_turkish import named
 from ilmek.units import deg, mm
 
 TASK = {"knot": "turkish", "cloth.warp_pitch": "4mm", "inclination": "80deg", "tried": "1000"}
@@ -128,6 +129,12 @@ def test_nothing_is_through_another_and_all_parts_are_held() -> None:
     found = contacts(hands_tree(parts_of(made()), made().servo))
     assert not found.through
     assert len(found.groups) == 1
+
+
+def test_every_part_has_a_turkish_noun() -> None:
+    bodies = hands_tree(parts_of(made()), made().servo).bodies
+    titles = {str(one.part.title) for body in bodies for one in body.occurrences}
+    assert [title for title in sorted(titles) if named(title) == title] == []
 
 
 def test_the_animation_ends_with_the_tied_yarn() -> None:

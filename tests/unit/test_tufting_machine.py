@@ -14,6 +14,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting_machine import TuftingMachine
 from ilmek.machines.tufting_machine.price import tufting_price
 from ilmek.machines.tufting_machine.rocker_drive import RockerDrive
+from ilmek.sentences.nouns_turkish import named
 from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
@@ -377,3 +378,10 @@ def test_knives_bear_the_cut_that_their_motor_gives() -> None:
 def test_knives_that_have_no_room_are_a_failed_check(settings: dict[str, str], check: str) -> None:
     report = MACHINE.report(made(pile="cut", **settings), illustrated=False, assembled=False)
     assert check in {str(one.name) for one in report.failed}
+
+
+@pytest.mark.parametrize("settings", [{"pile": "cut"}, SCROLLED])
+def test_every_part_has_a_turkish_noun(settings: dict[str, str]) -> None:
+    bodies = MACHINE.tree(made(**settings)).bodies
+    titles = {str(one.part.title) for body in bodies for one in body.occurrences}
+    assert [title for title in sorted(titles) if named(title) == title] == []

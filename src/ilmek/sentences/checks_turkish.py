@@ -243,6 +243,9 @@ needle drive with its bearing plates along the shafts = miller boyunca yatak lev
 needles out of their bar = çubuğundan çıkan iğneler | deflection of the needle bar = iğne çubuğunun sehimi
 stress of the needle bar = iğne çubuğunun gerilmesi
 knife past the hook's under edge, below its upper one = bıçak kancanın alt kenarının üstünde, üst kenarının altında
+hook leaves after the needle is out of the backing = kanca, iğne zeminden çıktıktan sonra ayrılır
+hook leaves before the needle comes down to it = kanca, iğne ona inmeden önce ayrılır
+lowest natural frequency of the links, over the looper crank's = uzuvların en küçük doğal frekansı, lüper krankınınkine oranı
 knife under the next loop = sıradaki ilmeğin altında bıçak
 knife beside the hook's beak the whole turn = bütün dönüşte kanca gagasının yanında bıçak
 needle, hook and knife beside each other = yan yana iğne, kanca ve bıçak
