@@ -182,8 +182,8 @@ bearing plate of the loopers = lüper yatak levha+sı | belt of the loopers = l�
 crank shaft of the loopers = lüper krank mil+i | pulley of the loopers' belt = lüper kayışı kasnağ+ı
 looper shaft = lüper mil+i | looper coupler = lüper biyel+i | looper rocker = lüper salınım kol+u
 knife bar = bıçak çubuğ+u | knife shaft = bıçak mil+i | knife coupler = bıçak biyel+i
-knife rocker = bıçak salınım kol+u | bed plate = tabla | post of the bed plate = tabla dikme+si | presser = baskı lama+sı
-end plate = yan levha | flywheel = volan | push rod = itme çubuğ+u | needle bar = iğne çubuğ+u
+knife rocker = bıçak salınım kol+u | bed plate = tabla | post of the bed plate = tabla dikme+si
+presser = baskı lama+sı | end plate = yan levha | flywheel = volan | push rod = itme çubuğ+u | needle bar = iğne çubuğ+u
 tufting needle = tafting iğne+si | spiked roller of the backing = zeminin dikenli silindir+i
 spiked roller = dikenli silindir | yarn roller = iplik silindir+i | yarn feed roller = iplik besleme silindir+i
 plate of scrolls = iplik makaraları levha+sı | scroll of a needle's yarn = iğne ipliğinin makara+sı
