@@ -281,6 +281,23 @@ def test_a_scroll_for_each_needle_stands_in_tiers_and_has_its_motor() -> None:
     assert found["yarn_speed_max"] == pytest.approx(2 * whole * mm * 160 / 60, rel=1e-9)
 
 
+def test_latches_have_the_time_near_the_highest_position_and_hang_on_their_bar() -> None:
+    """The time by the paper's circles; the mass of a latch for each needle; two sides and tiers without a clash."""
+    chosen = {**SCROLLED, "pattern.selection": "needles"}
+    machine, plain = made(**chosen), made(**SCROLLED)
+    assert machine.latches is not None
+    assert plain.latches is None
+    heights = np.array([needle_height(angle) for angle in np.linspace(0, turn, 7200, endpoint=False)])
+    near = np.mean(heights.max() - heights <= 0.3 * mm) * 60 / 160
+    assert machine.latches.window == pytest.approx(near, abs=2e-4)
+    assert machine.needle_bar.mass - plain.needle_bar.mass == pytest.approx(377 * 0.009)  # a solenoid of 12 x 12 mm
+    report = MACHINE.report(machine, illustrated=False)
+    assert not report.failed
+    assert numbers(**chosen)["tufting-machine/latch"] == 377
+    quick = made(**chosen, **{"needle_bar.notch": "0.001mm"})
+    assert [check.ok for check in quick.latches.checks] == [False, True, True]
+
+
 def test_groups_of_needles_have_a_roller_each() -> None:
     settings = {"width": "1.2m", "drives": "3", "pattern.attachment": "groups", "pattern.groups": "3"}
     machine = made(**settings, low_height="5mm")
@@ -380,7 +397,7 @@ def test_knives_that_have_no_room_are_a_failed_check(settings: dict[str, str], c
     assert check in {str(one.name) for one in report.failed}
 
 
-@pytest.mark.parametrize("settings", [{"pile": "cut"}, SCROLLED])
+@pytest.mark.parametrize("settings", [{"pile": "cut"}, {**SCROLLED, "pattern.selection": "needles"}])
 def test_every_part_has_a_turkish_noun(settings: dict[str, str]) -> None:
     bodies = MACHINE.tree(made(**settings)).bodies
     titles = {str(one.part.title) for body in bodies for one in body.occurrences}

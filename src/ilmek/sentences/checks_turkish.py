@@ -246,6 +246,8 @@ knife past the hook's under edge, below its upper one = bıçak kancanın alt ke
 hook leaves after the needle is out of the backing = kanca, iğne zeminden çıktıktan sonra ayrılır
 hook leaves before the needle comes down to it = kanca, iğne ona inmeden önce ayrılır
 lowest natural frequency of the links, over the looper crank's = uzuvların doğal frekansının lüper krankınınkine oranı
+latches move while their notches meet them = çentikleri karşıdayken mandallar hareket eder
+latches over each other on the needle bar = iğne çubuğunda üst üste mandallar | shear of a latch = mandalın kesilmesi
 knife under the next loop = sıradaki ilmeğin altında bıçak
 knife beside the hook's beak the whole turn = bütün dönüşte kanca gagasının yanında bıçak
 needle, hook and knife beside each other = yan yana iğne, kanca ve bıçak

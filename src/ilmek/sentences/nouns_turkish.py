@@ -172,10 +172,13 @@ on the adapter of its slide, with the screws of that = kızağının adaptörün
 bonded in its pocket = cebine yapıştırılı | bonded in its slot = yarığına yapıştırılı
 on the input shaft of its reducer, with the key of that = redüktörünün giriş milinde, onun kamasıyla
 its loop lies round the bar = ilmeği çubuğun çevresinde | bonded with epoxy resin = epoksi reçineyle yapıştırılı
+its shank in the needle bar, with its latch = sapı iğne çubuğunda, mandalıyla
+bonded on the needle bar = iğne çubuğuna yapıştırılı
 its shank in the needle bar, with a set screw = sapı iğne çubuğunda, setuskurla
 its stub is bonded in the end of the rapier = sapı kancanın ucuna yapıştırılı
 its clamp grips the end of the rapier with its own screws = kelepçesi kancanın ucunu kendi vidalarıyla kavrar
 locking assembly = sıkma bilezik takım+ı | stepper = adım motor+u | stress = gerilme
+latch of a needle = iğne mandal+ı
 loopers = lüperler | looper = lüper | knives = bıçaklar | bearing of the loopers = lüper yatağ+ı
 arm of the loopers = lüper kol+u | arm of the knives = bıçak kol+u | looper bar = lüper çubuğ+u
 bearing plate of the loopers = lüper yatak levha+sı | belt of the loopers = lüper kayış+ı | pin looper = lüper pim+i

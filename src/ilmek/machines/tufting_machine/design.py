@@ -23,6 +23,7 @@ from ilmek.machines.tufting.strength import SHAFTS, needle_strength
 from ilmek.machines.tufting.strength import design as needle_drive
 from ilmek.machines.tufting_machine.feed import TuftingFeed
 from ilmek.machines.tufting_machine.knife import KnifeDrive, knife_drive, knife_parts
+from ilmek.machines.tufting_machine.latches import NeedleLatches, needle_latches
 from ilmek.machines.tufting_machine.loop import Loop, NeedlePath, loop_geometry, loop_window, needle_depth
 from ilmek.machines.tufting_machine.looper import LooperDrive, looper_drive
 from ilmek.machines.tufting_machine.looper_parts import looper_parts
@@ -62,6 +63,7 @@ class TuftingMachine:
     knife: KnifeDrive | None = group()
     knife_forces: RockerForces | None = group("knife_")
     needle_bar: NeedleBar = group()
+    latches: NeedleLatches | None = group()
     shafts: TuftingShafts = group()
     feed: TuftingFeed = group()
     counterweight: float = result("", "counterweight on each crank: mass times radius (kg m)", least=0.0)
@@ -141,6 +143,7 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
         knife,
         cutting,
         needle_bar(params, mass, needle),
+        needle_latches(params, carpet.needles, path, _on_needle(needle)),
         shafts,
         TuftingFeed(params, carpet, (window.out - path.down(geometry.level)) % turn),
         *_balance(needle),
@@ -230,6 +233,11 @@ def _shafts(
         if enough or params.shafts.diameter or shafts.diameter >= SHAFTS[-1]:
             return shafts, made
         least = math.nextafter(shafts.diameter, math.inf)
+
+
+def _on_needle(needle: Tufting) -> float:
+    """Greatest force of the backing on a needle [N]."""
+    return float(np.max(np.abs(needle.state.friction))) / needle.params.penetration.needles
 
 
 def _even(needle: Tufting) -> FloatArray:

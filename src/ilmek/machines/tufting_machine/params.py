@@ -8,7 +8,7 @@ from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.params import Params, kind, nested
-from ilmek.units import deg, format_quantity, g, inch, m, mm, turn
+from ilmek.units import MPa, deg, format_quantity, g, inch, m, mm, turn
 from ilmek.weaving.tufting.programme import TuftGrid
 
 PILES = ("loop", "cut")
@@ -38,7 +38,7 @@ class TuftingPatternParams(Params):
         "each tuft the one of its colour alone",
     )
     hidden: float = kind.length(0.0, at_least=0.0, at_most=30 * mm, doc="height of loops that are not to be seen")
-    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls of a module, which is wired as one axis")
+    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls or latches of a module, wired as one axis")
     threading: float = kind.time(20.0, at_least=0.0, at_most=3600.0, doc="threading of a needle from its cone")
 
 
@@ -213,6 +213,11 @@ class NeedleBarParams(Params):
     rod: float = kind.length(20 * mm, at_least=3 * mm, at_most=0.2, doc="diameter of a push rod")
     joint: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.1, doc="gap of its pieces, with a phase of the drives")
     bow: float = kind.length(0.1 * mm, at_least=1e-6, at_most=0.1, doc="allowed deflection of the needle bar")
+    bolt: float = kind.length(
+        1.5 * mm, at_least=0.1 * mm, at_most=10 * mm, doc="way of a latch into its needle, where needles are selected"
+    )
+    notch: float = kind.length(0.3 * mm, above=0.0, at_most=5 * mm, doc="play of a latch in the notch of its needle")
+    latch_shear: float = kind.pressure(60 * MPa, at_least=0.1 * MPa, at_most=1e10, doc="allowed shear of a latch")
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,7 @@ def checks(machine: TuftingMachine) -> tuple[Check, ...]:
         *(machine.knife.checks if machine.knife else ()),
         *(check for forces in machine.below for check in forces.checks),
         *machine.needle_bar.checks,
+        *(machine.latches.checks if machine.latches else ()),
         *machine.shafts.checks,
         *machine.feed.checks,
         *_room_checks(machine),

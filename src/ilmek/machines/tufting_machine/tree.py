@@ -29,6 +29,7 @@ from ilmek.machines.tufting_machine.frame import (
     roller_axes,
     scroll_height,
 )
+from ilmek.machines.tufting_machine.latches import latch_places
 from ilmek.machines.tufting_machine.layout import TuftingLayout, layout
 from ilmek.machines.tufting_machine.needle_parts import DOWN, NEEDLE_BAR, needle_heights, needle_parts
 from ilmek.machines.tufting_machine.params import SCROLLS
@@ -39,7 +40,7 @@ from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MA
 from ilmek.part import catalogue
 from ilmek.part.flat_link import eyed_link
 from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Drilling, Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
@@ -112,12 +113,20 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
         rods = [laid.needle_level + drive * laid.pitch - laid.left - low - inset for drive in range(params.drives)]
         pattern = tuple(round(z, 9) for z in rods if 0 < z < length)
         bored = bars_by_bores.setdefault(pattern, _bored_bar(machine, pattern, len(bars_by_bores)))
-        parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under))
+        parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under), *_latches(machine, own, low))
         at = placement(y=-_rod_length(machine), z=laid.left)
         name = NEEDLE_BAR if made.pieces == 1 else f"{NEEDLE_BAR} {piece + 1}"
         bodies.append(RigidBody(name, parts, names[piece], positions=(at,)))
     bars = () if made.pieces > 1 else tuple(Closure(JointKind.FIXED, (NEEDLE_BAR, name)) for name in names[1:])
     return Tree(tuple(bodies), drives.closures), bars
+
+
+def _latches(machine: TuftingMachine, own: tuple[Placement, ...], low: float) -> Iterator[Occurrence]:
+    """The latches of needles on their piece of the bar, which begins at a height [m]."""
+    part = needle_parts(machine.params).latch
+    if part is not None:
+        heights = tuple(placement(z=float(place.origin[2]) - low) for place in own)
+        yield Occurrence(part, latch_places(machine.params, heights))
 
 
 def catalogue_length(part: Part) -> float:
