@@ -50,7 +50,7 @@ class Product:
         """None: each design is evaluated alone."""
         return {}
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], _only: object = None) -> Numbers:
         """x y, at most 0.5."""
         product = float(values["x"] or 0) * float(values["y"] or 0)
         return Numbers({"f": product}, {"f": ""}, (at_most("limit", product, 0.5, "1", "benchmark"),))

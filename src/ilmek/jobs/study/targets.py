@@ -71,11 +71,12 @@ class MachineTarget:
         _, params = find_machine(self.machine).ordered(self.settings)
         return params.as_dict().get(name, self.parameter(name).default)
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], only: Sequence[str] | None = None) -> Numbers:
         """The design's results and checks. Raises any IlmekError."""
         machine, params = find_machine(self.machine).ordered({**self.settings, **values})
-        design = machine.designed(params)
-        return numbers_of(machine.report(design, illustrated=False, drawn=False, assembled=False, listed=False))
+        names = None if only is None else frozenset(part for name in only for part in _parts(name))
+        made = machine.report(machine.designed(params), illustrated=False, assembled=False, listed=False, only=names)
+        return numbers_of(made)
 
     together = 1
 
@@ -119,7 +120,7 @@ class MechanismTarget:
         """The value in the file [SI]."""
         return self.parameter(name).default
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], _only: object = None) -> Numbers:
         """The results and checks of the mechanism in motion. Raises any IlmekError."""
         found = analysis(run(self._reader(values)(values), self.request))
         return numbers_of(mechanism_report(found, drawn=False))
@@ -186,6 +187,13 @@ def read_target(name: str, settings: Mapping[str, Setting], request: MotionReque
 def _no_motion(request: MotionRequest, name: str) -> None:
     if request.over or request.speed:
         raise ParameterError(f"--over and --speed are given for {name}", allowed="they are of a mechanism file")
+
+
+def _parts(name: str) -> Iterator[str]:
+    """What a result may be called in the report that has it: the parts of its name that follow each other."""
+    words = name.split(".")
+    for first in range(len(words)):
+        yield from (".".join(words[first:last]) for last in range(first + 1, len(words) + 1))
 
 
 def numbers_of(report: Report) -> Numbers:
