@@ -314,7 +314,7 @@ class Child:
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(
+def _report_in_a_loom(  # noqa: PLR0917
     component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool, listed: bool, only: frozenset[str] | None
 ) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""

@@ -180,7 +180,11 @@ def read_target(name: str, settings: Mapping[str, Setting], request: MotionReque
         return MachineTarget(order.machine, dict(order.settings))
     values = {given.removeprefix("values."): str(setting) for given, setting in settings.items()}
     read_mechanism(path, values)  # the first error has its line
-    data = with_values(text.data, values)
+    return target_of_data(with_values(text.data, values), request)
+
+
+def target_of_data(data: Mapping[str, object], request: MotionRequest) -> MechanismTarget:
+    """The target of a mechanism file's plain data, in which no value is replaced."""
     return MechanismTarget(data, sha256(repr(sorted(data.items())).encode()).hexdigest(), request)
 
 
