@@ -95,6 +95,17 @@ def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     assert json.loads(design.stdout)["results"]["drive_torque_max"] == found["best"]["results"]["drive_torque_max"]
 
 
+def test_the_table_as_parquet_is_that_of_csv(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    csv, file = tmp_path / "s.csv", tmp_path / "s.parquet"
+    words = ("--vary", "law=cycloidal, modified-sine", "--record", "prime_radius", "--csv", str(csv))
+    assert CliRunner().invoke(main, ["study", "cam", *words, "--parquet", str(file)]).exit_code in (0, 3)
+    found = parquet.read_table(file).to_pydict()
+    heads, *rows = (line.split(",") for line in csv.read_text().splitlines())
+    assert list(found) == heads
+    assert [[str(cell) for cell in row] for row in zip(*found.values(), strict=True)] == rows
+
+
 def test_listed_values_are_taken_once_each_and_stand_in_the_table() -> None:
     words = ("--vary", "law=cycloidal, modified-sine", "--vary", "lift=20mm, 30mm", "--record", "prime_radius")
     found = CliRunner().invoke(main, ["study", "cam", *words, "--csv", "-"])
