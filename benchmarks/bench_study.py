@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from study_targets import beam_of
+from study_targets import beam_of  # type: ignore[import-not-found]
 
 from ilmek import four_bar, solve
 from ilmek.dynamics.inverse_run import inverse_run
@@ -173,7 +173,7 @@ def _optuna_beam() -> tuple[float, int]:
     def goal(trial: Any) -> float:
         found = beam_of([trial.suggest_float(name, *ends) for name, ends in BEAM.items()])
         trial.set_user_attr("missed", [-margin(check) for check in found.checks])
-        return found.results["f"]
+        return float(found.results["f"])
 
     sampler = optuna.samplers.TPESampler(seed=0, constraints_func=lambda trial: trial.user_attrs["missed"])
     peer = optuna.create_study(sampler=sampler)

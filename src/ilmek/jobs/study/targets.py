@@ -1,7 +1,7 @@
 """What a study evaluates: a machine of the catalogue by its parameters, or a mechanism file by its `values`."""
 
 import cmath
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
@@ -125,10 +125,12 @@ class MechanismTarget:
         found = analysis(run(self._reader(values)(values), self.request))
         return numbers_of(mechanism_report(found, drawn=False))
 
-    def _reader(self, names: Iterable[str]) -> Callable[[Mapping[str, Value]], MechanismFile]:
+    def _reader(self, names: Collection[str]) -> Callable[[Mapping[str, Value]], MechanismFile]:
         """Reads designs of which these vary."""
         own = [name for name in names if name.partition(".")[0] not in PLAYS]
         read = values_reader(self.data, own)
+        if len(own) == len(names):
+            return read
         return lambda values: with_play(read({name: values[name] for name in own}), values)
 
     @property
