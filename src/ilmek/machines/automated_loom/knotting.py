@@ -187,7 +187,8 @@ def _room(task: LoomTask, weaver: Weaver, arms: KnottingDyad) -> ArmRoom:
     assert arms.head is not None
     shape, opener = weaver.shape, weaver.params.opener
     top, face = (shape.body + shape.size).imag - sheet(weaver), servo_face(head_motion(arms.params, arms.head))
-    return ArmRoom(
+    return replace(
+        arms.params.room,
         level=top - opener.front_span - opener.height / 2,
         face=shape.body.real,
         below=opener.height / 2 + opener.plate + task.params.clearance,

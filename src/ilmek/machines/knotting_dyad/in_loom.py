@@ -12,10 +12,11 @@ import numpy as np
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
-from ilmek.machines.knotting_dyad.jaws import gripper_half
+from ilmek.machines.knotting_dyad.jaws import CUP, IN_BORE, gripper_half
 from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
+from ilmek.machines.linkage_strength import smallest_pin
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.report import Work
@@ -26,11 +27,14 @@ LEAN = 20 * deg
 
 
 def params_for(task: LoomTask) -> KnottingDyadParams:
-    """The parameters of the arms of a loom: at rest their grippers leave the sley's foot its way before the warps."""
+    """The parameters of the arms of a loom: at rest their grippers leave the sley's foot its way before the warps, and
+    their elbows pass the opener's plates.
+    """
     usual = KnottingDyadParams(knot=task.params.knot, cloth=task.cloth)
     foot = usual.warp / 2 + SPARE * task.params.clearance + WeaverParams().finger
     leg = (foot + task.params.clearance + gripper_half(usual)) / math.cos(LEAN)
-    return replace(usual, leg=max(usual.leg, leg))
+    neck = smallest_pin(usual.strength, usual.link_width) / 2 - IN_BORE + CUP
+    return replace(usual, leg=max(usual.leg, leg), room=replace(usual.room, plates=neck + task.params.clearance))
 
 
 def work(dyad: KnottingDyad) -> tuple[Work, ...]:

@@ -31,6 +31,9 @@ class ArmRoom(Params):
         16 * mm, "from the needles' middle to the solenoids of the arms' jaws, along the warps", at_most=0.5
     )
     aside: float = _size(23 * mm, "from the middle of the pair to the servos", at_most=0.5)
+    plates: float | None = _size(
+        None, "from the sides of a warp opener's plates to the elbows, which pass them; default: no plates", at_most=0.5
+    )
 
 
 @dataclass(frozen=True, slots=True)

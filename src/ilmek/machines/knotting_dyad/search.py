@@ -114,7 +114,7 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
         effort = (first**2 + second**2) * turns
         before = np.where(there, effort + MISSED * missed, np.inf)
         near = there & (before <= np.min(before) + MISSED)  # no other can be the best
-        missed[near] += ~_own_side(section, *(one[near] for one in (pivot, first, second, side)))
+        missed[near] += ~_own_side(params, section, *(one[near] for one in (pivot, first, second, side)))
     cost = np.where(there, effort + MISSED * missed, np.inf)
     return _Tried(pivot, first, second, side, cost)
 
@@ -131,10 +131,17 @@ def _pivot_clear(params: KnottingDyadParams, section: WarpSection, pivot: Comple
     return np.asarray(room & (pivot.imag >= 2 * params.leg))
 
 
-def _own_side(
-    section: WarpSection, pivot: ComplexArray, first: FloatArray, second: FloatArray, side: FloatArray
+def _own_side(  # noqa: PLR0917
+    params: KnottingDyadParams,
+    section: WarpSection,
+    pivot: ComplexArray,
+    first: FloatArray,
+    second: FloatArray,
+    side: FloatArray,
 ) -> Bool[np.ndarray, " n"]:
-    """The wide parts stay above the warps, and on their side of the centre gripper's; the tilt within its limit."""
+    """The wide parts stay above the warps, and on their side of the centre gripper's; the elbows, which bear the necks
+    of the solenoids, beside the opener's plates; the tilt within its limit.
+    """
     base = np.abs(pivot - section.gap)[:, None]
     beyond = np.linspace(-section.front, section.reach, SAMPLES)
     r = second[:, None] - beyond
@@ -146,8 +153,16 @@ def _own_side(
     right = np.maximum(elbow.real, wide.real)
     low = np.minimum(elbow.imag, wide.imag)
     straight = out.imag >= np.cos(section.tilt) - 1e-12
-    fits: Bool[np.ndarray, " n"] = np.all((right <= section.middle - room) & (low >= above) & straight, axis=-1)
+    beside = elbow.real <= section.middle - _elbow_room(params, section)
+    fits: Bool[np.ndarray, " n"] = np.all(
+        (right <= section.middle - room) & (low >= above) & beside & straight, axis=-1
+    )
     return fits & (pivot.real <= section.middle - room) & (pivot.imag >= above)
+
+
+def _elbow_room(params: KnottingDyadParams, section: WarpSection) -> float:
+    """From the middle of the pair to the elbows, at least [m]: the plates of an opener reach to the pair's neighbours."""
+    return 0.0 if params.room.plates is None else section.plate_half + params.room.plates
 
 
 def _none(params: KnottingDyadParams, why: str) -> ParameterError:

@@ -99,6 +99,11 @@ class WarpSection:
         return self.pair / 2
 
     @property
+    def plate_half(self) -> float:
+        """Half the width of a warp opener's plates, whose sides hold the neighbours of the pair [m]."""
+        return self.pair / 2 + self.outer - self.warp / 2
+
+    @property
     def handover(self) -> complex:
         """Point at which arms and centre gripper meet [m]."""
         return complex(self.middle, -self.depth)
