@@ -161,7 +161,7 @@ def _own_side(  # noqa: PLR0917
 
 
 def _elbow_room(params: KnottingDyadParams, section: WarpSection) -> float:
-    """From the middle of the pair to the elbows, at least [m]: the plates of an opener reach to the pair's neighbours."""
+    """From the middle of the pair to the elbows, at least [m]: an opener's plates reach to the pair's neighbours."""
     return 0.0 if params.room.plates is None else section.plate_half + params.room.plates
 
 

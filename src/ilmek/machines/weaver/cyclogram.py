@@ -17,12 +17,15 @@ from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, 
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.solver import least_acceleration, least_period, period_needed
-from ilmek.units import deg, turn
+from ilmek.units import deg, mm, turn
 
 SOURCE = "thesis, 2.2.3: order of the knotting sequence"
 
 TUBE_TURN, DRAW_TURN, PRESENT_TURN = 90 * deg, 110 * deg, 70 * deg
 """Rotations of the handler to the tube, drawing the pile, and to the side grippers; it turns on to come home."""
+
+ARMS_RADIUS = 23.2 * mm
+"""Least radius of the handler where arms tie: its shaft passes under their solenoids [m]; found by the clearances."""
 
 LEAVES, LEFT_SHARE = "opener leaves", 0.4
 """Event of the opener's return, and its share of it, from which the sley may come down; assumed by this project."""
@@ -33,12 +36,18 @@ _Needed: TypeAlias = tuple[float, float | None]
 """Times of the cutter and of the arms [s]."""
 
 
-def cyclogram(params: WeaverParams, crossing: float) -> Cyclogram:
+def handler_radius(params: WeaverParams, pile: float) -> float:
+    """Radius at which the handler draws a length of pile yarn by `DRAW_TURN`, or by less [m]."""
+    return max(pile / DRAW_TURN, ARMS_RADIUS if params.with_arms else 0.0)
+
+
+def cyclogram(params: WeaverParams, crossing: float, pile: float) -> Cyclogram:
     """The head's cyclogram at the required cycle; positions [m], of the handler [rad].
 
-    crossing  travel of the side grippers along the screw [m]
+    crossing  travel of the side grippers along the screw [m]     pile  length of the yarn that the handler draws [m]
     """
-    drawn, shown = TUBE_TURN + DRAW_TURN, TUBE_TURN + DRAW_TURN + PRESENT_TURN
+    drawn = TUBE_TURN + pile / handler_radius(params, pile)
+    shown = drawn + PRESENT_TURN
     sley = params.sley_stroke
     tools = (
         _track(

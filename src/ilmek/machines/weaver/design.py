@@ -11,7 +11,7 @@ from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
 from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.carriage_belt import BESIDE
 from ilmek.machines.weaver.cutter_motor import motor_length
-from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations, within
+from ilmek.machines.weaver.cyclogram import arms_window, handler_radius, optimised, relations, within
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
@@ -143,8 +143,8 @@ class Weaver:
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the required time, or in the shortest that speeds and accelerations allow."""
     drawn, grippers = _grippers(params)
-    radius = drawn / DRAW_TURN
-    cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing), radius)
+    radius = handler_radius(params, drawn)
+    cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing, drawn), radius)
     opener = _opener(params, grippers)
     reaching = head_tools(params, grippers, drawn)
     tools = ToolBodies(params, grippers, opener, reaching, radius)
@@ -193,15 +193,15 @@ def ties_in_time(params: WeaverParams) -> bool:
     if not params.optimise and not stretches(params):
         return ties_as_set(params)
     drawn, grippers = _grippers(params)
-    required = knot_cyclogram(params, grippers.crossing)
-    limited = replace(required, tracks=_limited(params, required, drawn / DRAW_TURN))
+    required = knot_cyclogram(params, grippers.crossing, drawn)
+    limited = replace(required, tracks=_limited(params, required, handler_radius(params, drawn)))
     return within(limited, params.relation_gap, (params.cutting_time, params.arms.time), params.cycle)
 
 
 def ties_as_set(params: WeaverParams) -> bool:
     """Whether the motions at the angles that are set tie within the required cycle: without a whole design."""
     drawn, grippers = _grippers(params)
-    tied = _within_limits(params, knot_cyclogram(params, grippers.crossing), drawn / DRAW_TURN)
+    tied = _within_limits(params, knot_cyclogram(params, grippers.crossing, drawn), handler_radius(params, drawn))
     return tied.period <= params.cycle * (1 + _WHOLE)
 
 

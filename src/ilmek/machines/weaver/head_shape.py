@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
-from ilmek.machines.weaver.cyclogram import DRAW_TURN
+from ilmek.machines.weaver.cyclogram import handler_radius
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, FollowerLever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
@@ -229,7 +229,7 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
         _sley(params, complex(radius + standoff, face + SLEY_TAIL), above),
     )
     grippers = params.opener.front_span + params.opener.height / 2 - arms.grip
-    handler = grippers - HANDLER_ARM[0] - drawn / DRAW_TURN
+    handler = grippers - HANDLER_ARM[0] - handler_radius(params, drawn)
     return HeadTools(
         tools,
         face,

@@ -13,7 +13,7 @@ import numpy as np
 
 from ilmek.elements.involute import Gear, outline
 from ilmek.elements.materials import MATERIALS
-from ilmek.machines.weaver.cyclogram import DRAW_TURN, PRESENT_TURN, TUBE_TURN
+from ilmek.machines.weaver.cyclogram import PRESENT_TURN, TUBE_TURN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HANDLER_ARM, LOWER_PLATE
 from ilmek.machines.weaver.motions import HANDLER
@@ -85,7 +85,7 @@ def _reach(weaver: Weaver) -> complex:
 def home(weaver: Weaver) -> float:
     """Direction of its arm at angle 0 [rad], counter-clockwise from the right."""
     shown = float(np.angle(_reach(weaver)))
-    return shown - TUBE_TURN - DRAW_TURN - PRESENT_TURN
+    return shown - TUBE_TURN - weaver.drawn / weaver.handler_radius - PRESENT_TURN
 
 
 def rack_top(weaver: Weaver) -> float:
