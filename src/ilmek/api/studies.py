@@ -12,13 +12,16 @@ from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.study.order import StudyOrder
 from ilmek.jobs.study.run import StudyResult
 from ilmek.jobs.study.run import study as carried_out
-from ilmek.jobs.study.targets import target_of_data
+from ilmek.jobs.study.targets import MechanismTarget, target_of_data
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 
+Studied = str | Path | MechanismFile
+"""A machine by its name, a file by its path, or a mechanism file that was read."""
+
 
 def study(
-    target: str | Path | MechanismFile,
+    target: Studied,
     vary: Mapping[str, str] | str | Path,
     /,
     *,
@@ -62,10 +65,7 @@ def study(
     given = Arguments("a study")
     table = isinstance(vary, str | Path)
     settings = given.mapping("fixed", fixed, lambda _, value: value)
-    read = None
-    if isinstance(target, MechanismFile):
-        texts = {name: str(value) for name, value in settings.items()}
-        read = target_of_data(with_values(target.data, texts), MotionRequest({}))
+    read = _read_already(target, settings) if isinstance(target, MechanismFile) else None
     order = StudyOrder(
         target.source.name if isinstance(target, MechanismFile) else str(given.path("target", target)),
         settings,
@@ -82,13 +82,16 @@ def study(
         costs=given.mapping("costs", costs, given.number),
         designs=str(given.path("vary", vary)) if table else "",
     )
-    kept = None if file is None else given.path("file", file)
-    address = None if cluster is None else given.text("cluster", cluster)
     return carried_out(
         order,
-        kept,
+        None if file is None else given.path("file", file),
         workers=given.whole("workers", workers, least=1),
-        cluster=address,
+        cluster=None if cluster is None else given.text("cluster", cluster),
         target=read,
         progress=given.record("progress", progress, Progress),
     )
+
+
+def _read_already(file: MechanismFile, settings: Mapping[str, Setting]) -> MechanismTarget:
+    values = {name: str(value) for name, value in settings.items()}
+    return target_of_data(with_values(file.data, values), MotionRequest({}))
