@@ -195,6 +195,42 @@ def test_every_name_of_a_check_is_there_in_turkish() -> None:
     assert [name for name in sorted(names) if named(name) == name and "_" not in name] == []
 
 
+ENGLISH_ALONE = frozenset(
+    re.findall(
+        r"\w+",
+        "the of and with from that which are for by its their than where not each over under between or if it be has "
+        "have was this these those when while only into through but",
+    )
+)
+"""Short words of English without which few of its sentences do, and that no Turkish text has: the judge."""
+
+
+def declared_texts() -> Iterator[str]:
+    """The meanings of results, parameters and options as they stand in the sources."""
+    for file in SOURCES.rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            texts = [word.value for word in node.keywords if word.arg in {"doc", "help"}]
+            name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            if name in {"result", "file_option", "text_option"}:
+                texts += node.args[1 + (name != "result") :][:1]
+            yield from (text.value for text in texts if isinstance(text, ast.Constant) and isinstance(text.value, str))
+
+
+def test_every_meaning_is_there_in_turkish() -> None:
+    texts = {text for text in declared_texts() if " " in text}
+    assert len(texts) > 1000
+    assert [text for text in sorted(texts) if words(re.sub("`.*?`", "", named(text))) & ENGLISH_ALONE] == []
+
+
+@pytest.mark.parametrize("name", ["", *main.modules])
+def test_the_help_of_every_command_says_no_english(name: str) -> None:
+    shown = CliRunner().invoke(main, ["--lang", "tr", *name.split(), "--help"]).output
+    told = re.sub(r"--[\w-]+|\b[A-Z.]{2,}\b|`.*?`", "", shown.partition("Örnekler:")[0])
+    assert words(told) & ENGLISH_ALONE == set()
+
+
 def words(text: str) -> set[str]:
     return set(re.findall(r"[^\W\d_]{2,}", text.lower()))
 

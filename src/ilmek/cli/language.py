@@ -33,7 +33,7 @@ def worded(text: str) -> str:
 
 def error_line(error: IlmekError) -> str:
     """The line of an error in the language of the command."""
-    return joined_message(printed(error.given), printed(error.allowed), printed(error.do))
+    return joined_message(worded(error.given), worded(error.allowed), worded(error.do))
 
 
 def language_option(*, hidden: bool = False) -> click.Option:

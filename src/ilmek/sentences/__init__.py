@@ -47,8 +47,8 @@ WEAVERS = LANGUAGES | {
 _SPOKEN = ContextVar("language", default=DEFAULT)
 
 
-GIVEN = frozenset(("file", "key", "name", "option"))
-"""Places in sentences for what a person calls it: files, their keys, parameters."""
+GIVEN = frozenset(("choices", "file", "key", "name", "option"))
+"""Places in sentences for what a person calls it: files, their keys, parameters and what these may be."""
 
 
 class Sentence(str):
