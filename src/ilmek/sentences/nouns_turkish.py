@@ -20,12 +20,29 @@ def _table(name: str) -> Mapping[str, str]:
     return dict(line.split("\t") for line in lines)
 
 
-def _phrase(text: str) -> str | None:
-    """A phrase of the table of phrases, which may stand there with holes.
+def phrased(text: str) -> str:
+    """A text that is known as a whole in Turkish; another one stays, its nouns too.
 
-    #  a number or a quoted word, in the same order in both languages
-    {} a text that is said in Turkish too    {=} one that stays    {0}, {1} the places of both in the Turkish one
+    >>> phrased("unknown machine 'cam'"), phrased("cam, crank")
+    ("bilinmeyen makine 'cam'", 'cam, crank')
     """
+    return _phrase(text) or _filled(text) or text
+
+
+def _known(text: str) -> str | None:
+    """A phrase, a cure, either with a full stop, a phrase with more behind it, or one with holes."""
+    if (known := _phrase(text) or advised(text, _phrase)) is not None:
+        return known
+    if text.endswith("."):
+        return f"{named(text[:-1])}."
+    main, more, rest = text.rpartition("; ")
+    if more and (known := _phrase(main)) is not None:
+        return f"{known}; {named(rest)}"
+    return _filled(text)
+
+
+def _phrase(text: str) -> str | None:
+    """A phrase of the table of phrases; # stands there for a number or a quoted word, in the same order in both."""
     phrases = _table("turkish.tsv")
     if text in phrases:
         return phrases[text]
@@ -33,11 +50,20 @@ def _phrase(text: str) -> str | None:
     if found is not None:
         values = iter(_HOLE.findall(text))
         return re.sub("#", lambda _: next(values), found)
-    for pattern, stays, said in _patterns():
+    return _capital(_phrase(text[0].lower() + text[1:])) if text[:1].isupper() else None
+
+
+def _filled(text: str) -> str | None:
+    """A phrase with holes for texts: {} for one that is said in Turkish too, {=} for one that stays.
+
+    {0} and {1} are the places of both in the Turkish one.
+    """
+    near = {one for word in _WORD.findall(text) for one in _patterns().get(word, ())}
+    for _, pattern, stays, said in sorted(near):
         if filled := pattern.fullmatch(text):
             values = zip(filled.groups(), stays, strict=True)
             return said.format(*(value if kept else named(value) for value, kept in values))
-    return _capital(_phrase(text[0].lower() + text[1:])) if text[:1].isupper() else None
+    return None
 
 
 def _capital(text: str | None) -> str | None:
@@ -45,19 +71,22 @@ def _capital(text: str | None) -> str | None:
 
 
 @cache
-def _patterns() -> tuple[tuple[re.Pattern[str], tuple[bool, ...], str], ...]:
-    """The phrases with holes for texts, those with the most letters first: what each hole keeps, and the Turkish."""
-    holed = sorted((key for key in _table("turkish.tsv") if _TEXTS.search(key)), key=len, reverse=True)
-    return tuple(
-        (
-            re.compile("(.+?)".join(map(re.escape, _TEXTS.split(key)))),
-            tuple(hole == "{=}" for hole in _TEXTS.findall(key)),
-            _table("turkish.tsv")[key],
-        )
-        for key in holed
-    )
+def _patterns() -> Mapping[str, list[tuple[int, re.Pattern[str], tuple[bool, ...], str]]]:
+    """The phrases with holes for texts, by their longest word: rank, what each hole keeps, and the Turkish.
+
+    Those with the most letters come first.
+    """
+    phrases = _table("turkish.tsv")
+    found: dict[str, list[tuple[int, re.Pattern[str], tuple[bool, ...], str]]] = {}
+    for rank, key in enumerate(sorted((key for key in phrases if _TEXTS.search(key)), key=len, reverse=True)):
+        pattern = re.compile("(.+?)".join(map(re.escape, _TEXTS.split(key))))
+        stays = tuple(hole == "{=}" for hole in _TEXTS.findall(key))
+        word = max(_WORD.findall(" ".join(_TEXTS.split(key))), key=len)
+        found.setdefault(word, []).append((rank, pattern, stays, phrases[key]))
+    return found
 
 
+_WORD = re.compile(r"[^\W\d_]+")
 _TEXTS = re.compile(r"\{=?\}")
 _HOLE = re.compile(r"(?<!\w)'[^']*'(?!\w)|(?<![\w.#])[-−]?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?(?!\w)")
 
@@ -80,13 +109,8 @@ def named(text: str) -> str:
     >>> named("Beat-up: stress of a leaf")
     'Tefeleme: yaprağın gerilmesi'
     """
-    if (known := _phrase(text) or advised(text, _phrase)) is not None:
+    if (known := _known(text)) is not None:
         return known
-    if text.endswith("."):
-        return f"{named(text[:-1])}."
-    main, more, rest = text.rpartition("; ")
-    if more and (known := _phrase(main)) is not None:
-        return f"{known}; {named(rest)}"
     whole = None if "; " in text else _noun(text)
     head, colon, rest = text.partition(": ")
     if whole is None and colon and "; " not in text:
