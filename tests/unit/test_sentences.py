@@ -26,7 +26,7 @@ from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest
 from ilmek.jobs.studio.carpet.tasks import chart, corners
 from ilmek.jobs.studio.words import in_page
 from ilmek.report import at_least, at_most, must
-from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language, told
+from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language, worded_error
 from ilmek.sentences.english import ENGLISH
 from ilmek.sentences.nouns_turkish import named
 
@@ -225,8 +225,10 @@ joint C of four-bar has a gap of 0.2 m at the start | did you mean 30deg? | no t
 def test_an_error_of_the_engine_is_said_in_turkish() -> None:
     errors = [text for line in TEXTS_OF_ERRORS.strip().split("\n") for text in line.split(" | ")]
     with in_language("tr"):
-        assert [text for text in errors if told(text) == text or words(told(text)) & ENGLISH_ALONE] == []
-        assert told("law, motion, lift") == "law, motion, lift"
+        assert [
+            text for text in errors if worded_error(text) == text or words(worded_error(text)) & ENGLISH_ALONE
+        ] == []
+        assert worded_error("law, motion, lift") == "law, motion, lift"
 
 
 @pytest.mark.parametrize("name", ["", *main.modules])

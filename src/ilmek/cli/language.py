@@ -5,7 +5,7 @@ from collections.abc import Callable
 import click
 
 from ilmek.errors import IlmekError, joined_message, printable
-from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, headed, in_language, told
+from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, headed, in_language, worded_error
 
 _LANGUAGE = "ilmek.language"
 """Where the context of a command has the language of --lang."""
@@ -39,7 +39,7 @@ def _said(text: str, speak: Callable[[str], str]) -> str:
 
 def error_line(error: IlmekError) -> str:
     """The line of an error in the language of the command."""
-    return joined_message(*(_said(text, told) for text in (error.given, error.allowed, error.do)))
+    return joined_message(*(_said(text, worded_error) for text in (error.given, error.allowed, error.do)))
 
 
 def language_option(*, hidden: bool = False) -> click.Option:

@@ -173,7 +173,7 @@ def headed(text: str) -> str:
     return (WORDS.get(text) if _SPOKEN.get() == "tr" else None) or translated(text)
 
 
-def told(text: str) -> str:
+def worded_error(text: str) -> str:
     """What an error says, in the language that is spoken; of one that is no sentence what is known as a whole."""
     return translated(text) if isinstance(text, Sentence) or _SPOKEN.get() != "tr" else phrased(text)
 
