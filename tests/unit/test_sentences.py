@@ -12,6 +12,7 @@ import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from english_words import ENGLISH_ALONE, words
 from PIL import Image
 
 import ilmek
@@ -25,7 +26,7 @@ from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest
 from ilmek.jobs.studio.carpet.tasks import chart, corners
 from ilmek.jobs.studio.words import in_page
 from ilmek.report import at_least, at_most, must
-from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language
+from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language, worded_error
 from ilmek.sentences.english import ENGLISH
 from ilmek.sentences.nouns_turkish import named
 
@@ -195,8 +196,46 @@ def test_every_name_of_a_check_is_there_in_turkish() -> None:
     assert [name for name in sorted(names) if named(name) == name and "_" not in name] == []
 
 
-def words(text: str) -> set[str]:
-    return set(re.findall(r"[^\W\d_]{2,}", text.lower()))
+def declared_texts() -> Iterator[str]:
+    """The meanings of results, parameters and options as they stand in the sources."""
+    for file in SOURCES.rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            texts = [word.value for word in node.keywords if word.arg in {"doc", "help"}]
+            name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            if name in {"result", "file_option", "text_option"}:
+                texts += node.args[1 + (name != "result") :][:1]
+            yield from (text.value for text in texts if isinstance(text, ast.Constant) and isinstance(text.value, str))
+
+
+def test_every_meaning_is_there_in_turkish() -> None:
+    texts = {text for text in declared_texts() if " " in text}
+    assert len(texts) > 1000
+    assert [text for text in sorted(texts) if words(re.sub(r"`.*?`|--[\w-]+", "", named(text))) & ENGLISH_ALONE] == []
+
+
+TEXTS_OF_ERRORS = """
+unknown machine 'nothing' | none.toml is empty | line 3: the heading 'x' | give another --journal, or --new
+row 7 with 3 phases | a bore of 0.1 m in a bar of 0.05 m | at most 12 heads: each ties two halves of at least one knot
+joint C of four-bar has a gap of 0.2 m at the start | did you mean 30deg? | no table 'x' in the report of cam
+"""
+
+
+def test_an_error_of_the_engine_is_said_in_turkish() -> None:
+    errors = [text for line in TEXTS_OF_ERRORS.strip().split("\n") for text in line.split(" | ")]
+    with in_language("tr"):
+        assert [
+            text for text in errors if worded_error(text) == text or words(worded_error(text)) & ENGLISH_ALONE
+        ] == []
+        assert worded_error("law, motion, lift") == "law, motion, lift"
+
+
+@pytest.mark.parametrize("name", ["", *main.modules])
+def test_the_help_of_every_command_says_no_english(name: str) -> None:
+    shown = CliRunner().invoke(main, ["--lang", "tr", *name.split(), "--help"]).output
+    told = re.sub(r"--[\w-]+|\b[A-Z.]{2,}\b|`.*?`", "", shown.partition("Örnekler:")[0])
+    assert words(told) & ENGLISH_ALONE == set()
 
 
 @click.command()

@@ -19,7 +19,8 @@ from typing import Any, cast
 import click
 
 from ilmek.cli.interrupts import interrupted, leave, supervised
-from ilmek.cli.language import error_line, language_option, speak
+from ilmek.cli.language import error_line, language_option, speak, worded
+from ilmek.cli.spoken_help import SpokenContext
 from ilmek.errors import IlmekError, did_you_mean
 
 CLOSED = 128 + 13
@@ -31,6 +32,8 @@ class LazyGroup(click.Group):
 
     modules  command name -> (module that defines `command`, one line of help)
     """
+
+    context_class = SpokenContext
 
     def __init__(self, *, modules: Mapping[str, tuple[str, str]], **settings: Any) -> None:
         super().__init__(invoke_without_command=True, callback=_help_alone, **settings)
@@ -108,6 +111,7 @@ class LazyGroup(click.Group):
 @cache
 def _speaking(command: click.Command) -> click.Command:
     """The command with --lang; one that has a language for its files speaks it where it has every sentence."""
+    command.context_class = SpokenContext
     own = next((one for one in command.params if "--lang" in one.opts), None)
     if own is None:
         command.params.append(language_option(hidden=True))
@@ -134,9 +138,12 @@ def _note_rebuilt_kernels() -> None:
 
 def _usage(error: click.ClickException) -> str:
     """A usage error in one line, with a reference to the help."""
-    message = error.format_message().rstrip(".")
     context = getattr(error, "ctx", None)
-    return f"{message}; see '{context.command_path} --help'" if context is not None else message
+    if context is None:
+        return error.format_message().rstrip(".")
+    with context.scope(cleanup=False):
+        see = worded(f"see '{context.command_path} --help'")
+        return f"{worded(error.format_message()).rstrip('.')}; {see}"
 
 
 def _open_streams() -> None:

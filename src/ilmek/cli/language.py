@@ -1,9 +1,11 @@
 """The language of what a command prints: `ilmek --lang tr COMMAND`, or after the command."""
 
+from collections.abc import Callable
+
 import click
 
 from ilmek.errors import IlmekError, joined_message, printable
-from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, headed, in_language
+from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, headed, in_language, worded_error
 
 _LANGUAGE = "ilmek.language"
 """Where the context of a command has the language of --lang."""
@@ -23,17 +25,21 @@ def printed(text: str) -> str:
 
 def worded(text: str) -> str:
     """A sentence, or words of the engine, in the language of the command: titles, headings, names of checks."""
+    return _said(text, headed)
+
+
+def _said(text: str, speak: Callable[[str], str]) -> str:
     context = click.get_current_context(silent=True)
     language = DEFAULT if context is None else context.meta.get(_LANGUAGE, DEFAULT)
     if language == DEFAULT:
         return printable(text)
     with in_language(language):
-        return printable(headed(text))
+        return printable(speak(text))
 
 
 def error_line(error: IlmekError) -> str:
     """The line of an error in the language of the command."""
-    return joined_message(printed(error.given), printed(error.allowed), printed(error.do))
+    return joined_message(*(_said(text, worded_error) for text in (error.given, error.allowed, error.do)))
 
 
 def language_option(*, hidden: bool = False) -> click.Option:

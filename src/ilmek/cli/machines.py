@@ -7,6 +7,7 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_table
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.params import Parameter
+from ilmek.sentences import Name, Sentence
 from ilmek.units import format_quantity
 
 EXAMPLES = """\b
@@ -30,20 +31,18 @@ def command(name: str | None, force: bool, json_to: str | None) -> None:
     if call.quiet:
         return
     if form is None:
-        show_table(("machine", "description"), list(machines.items()))
+        show_table(("machine", "description"), list(machines.items()), words=(1,))
     else:
-        say(f"{form.machine}: {form.summary}")
-        show_table(
-            ("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters], wide=(0,)
-        )
+        say(Sentence("at", where=Name(form.machine), text=form.summary))
+        headings = ("parameter", "default", "unit", "allowed", "meaning")
+        show_table(headings, [_row(p) for p in form.parameters], wide=(0,), words=(3, 4))
         if form.machines:
-            say(f"also every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
+            say(Sentence("terminal.also-of", machines=Name(", ".join(form.machines)), first=Name(form.machines[0])))
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str, str]:
-    allowed = parameter.allowed().removeprefix("allowed: ")
     name = f"{parameter.name} ({parameter.alias})" if parameter.alias else parameter.name
-    return name, _default(parameter), parameter.unit, allowed, parameter.doc
+    return name, _default(parameter), parameter.unit, parameter.bounds(), parameter.doc
 
 
 def _default(parameter: Parameter) -> str:

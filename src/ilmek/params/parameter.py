@@ -161,6 +161,13 @@ class Parameter:
         """The bounds or choices in words: `allowed: above 0 mm, at most 500 mm`."""
         if self.choices and self.kind is str:
             return Sentence("value.one-of", choices=", ".join(self.choices))
+        bounds = self.bounds()
+        return bounds and Sentence("value.allowed", bounds=bounds)
+
+    def bounds(self) -> str:
+        """The same without the word before bounds: `above 0 mm, at most 500 mm`."""
+        if self.choices and self.kind is str:
+            return self.allowed()
         limits = (
             ("value.above", self.above),
             ("value.at-least", self.at_least),
@@ -171,8 +178,7 @@ class Parameter:
         if not found:
             return ""
         bounds = reduce(lambda first, second: Sentence("value.both", first=first, second=second), found)
-        choices = ", ".join(self.choices)
-        return Sentence("value.allowed-or" if choices else "value.allowed", bounds=bounds, choices=choices)
+        return Sentence("value.or", bounds=bounds, choices=", ".join(self.choices)) if self.choices else bounds
 
     def _likely_slip(self, value: float) -> str:
         """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""

@@ -11,7 +11,7 @@ from importlib import import_module
 from typing import Any, NamedTuple
 
 from ilmek.sentences.english import ENGLISH
-from ilmek.sentences.nouns_turkish import named
+from ilmek.sentences.nouns_turkish import named, phrased
 from ilmek.sentences.terminal_turkish import WORDS
 from ilmek.sentences.weaver_english import NOUNS
 
@@ -47,8 +47,8 @@ WEAVERS = LANGUAGES | {
 _SPOKEN = ContextVar("language", default=DEFAULT)
 
 
-GIVEN = frozenset(("file", "key", "name", "option"))
-"""Places in sentences for what a person calls it: files, their keys, parameters."""
+GIVEN = frozenset(("choices", "file", "key", "name", "option"))
+"""Places in sentences for what a person calls it: files, their keys, parameters and what these may be."""
 
 
 class Sentence(str):
@@ -171,6 +171,11 @@ def headed(text: str) -> str:
     'renk değişimleri'
     """
     return (WORDS.get(text) if _SPOKEN.get() == "tr" else None) or translated(text)
+
+
+def worded_error(text: str) -> str:
+    """What an error says, in the language that is spoken; of one that is no sentence what is known as a whole."""
+    return translated(text) if isinstance(text, Sentence) or _SPOKEN.get() != "tr" else phrased(text)
 
 
 def language_spoken() -> Language:

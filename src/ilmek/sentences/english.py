@@ -92,7 +92,7 @@ ENGLISH = {
     "value.below": "below {limit}",
     "value.at-most": "at most {limit}",
     "value.allowed": "allowed: {bounds}",
-    "value.allowed-or": "allowed: {bounds} or {choices}",
+    "value.or": "{bounds} or {choices}",
     "value.both": "{first}, {second}",
     "value.too-long": "{value} is too long",
     "value.at-most-characters": "at most {count} characters",

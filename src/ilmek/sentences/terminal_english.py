@@ -11,6 +11,7 @@ TERMINAL = {
     "terminal.must-be": "{value}, must be == {limit}",
     "terminal.at-most": "{value}, must be at most {limit}",
     "terminal.at-least": "{value}, must be at least {limit}",
+    "terminal.also-of": "also every parameter of {machines}, as {first}.NAME=VALUE",
     "terminal.with-json": "with --json also: {names}",
     "terminal.tests": "tests of the computation: all {count} pass",
     "terminal.tests-one": "tests of the computation: the only one passes",

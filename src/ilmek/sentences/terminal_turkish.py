@@ -11,6 +11,7 @@ TERMINAL = {
     "terminal.must-be": "{value}, {limit} olmalı",
     "terminal.at-most": "{value}, en çok {limit} olmalı",
     "terminal.at-least": "{value}, en az {limit} olmalı",
+    "terminal.also-of": "ayrıca {machines} makinelerinin her parametresi, {first}.AD=DEĞER diye",
     "terminal.with-json": "--json ile ayrıca: {names}",
     "terminal.tests": "hesabın sınamaları: {count} sınamanın hepsi geçti",
     "terminal.tests-one": "hesabın sınamaları: tek sınama geçti",

@@ -92,7 +92,7 @@ TURKISH = {
     "value.below": "{limit} altında",
     "value.at-most": "en çok {limit}",
     "value.allowed": "izin verilen: {bounds}",
-    "value.allowed-or": "izin verilen: {bounds} ya da {choices}",
+    "value.or": "{bounds} ya da {choices}",
     "value.both": "{first}, {second}",
     "value.too-long": "{value} çok uzun",
     "value.at-most-characters": "en çok {count} karakter",

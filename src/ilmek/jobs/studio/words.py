@@ -3,8 +3,12 @@ the pages name it.
 """
 
 import re
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, TypeVar
 
-from ilmek.sentences import translated
+from ilmek.sentences import DEFAULT, LANGUAGES, language_spoken, translated
+
+T = TypeVar("T")
 
 _OPTION = re.compile(r"(?<![\w-])--(?:no-)?([a-z][a-z-]*)(?: [A-Z]+\.\.[A-Z]+)?")
 
@@ -38,3 +42,39 @@ def in_page(text: str) -> str:
 def all_in_page(texts: tuple[str, ...]) -> tuple[str, ...]:
     """Sentences without options of the command line."""
     return tuple(map(in_page, texts))
+
+
+WORDS = frozenset(
+    re.findall(
+        r"\w+",
+        "title note label heading meaning doc summary allowed rows bars kinds check decided_by source cure sieve words "
+        "made no_four_bar reasons",
+    )
+)
+"""Fields of records that hold words for people."""
+
+
+def spoken(record: T) -> T:
+    """A record of a machine with its words in the language of the page: titles, notes, labels, headings, meanings.
+
+    >>> from ilmek.report import Column
+    >>> from ilmek.sentences import in_language
+    >>> with in_language("tr"):
+    ...     spoken(Column("crank angle", "deg")).heading
+    'krank açısı'
+    """
+    spoken_record: T = record if language_spoken() == LANGUAGES[DEFAULT] else _spoken(record, words=False)
+    return spoken_record
+
+
+def _spoken(value: Any, *, words: bool) -> Any:
+    if isinstance(value, str):
+        return in_page(value) if words else value
+    if isinstance(value, dict) and words:
+        return {key: _spoken(one, words=words) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(_spoken(one, words=words) for one in value)
+    if not is_dataclass(value) or isinstance(value, type):
+        return value
+    said = {one.name: _spoken(getattr(value, one.name), words=one.name in WORDS) for one in fields(value) if one.init}
+    return replace(value, **said)

@@ -23,6 +23,7 @@ from ilmek.jobs.studio.cyclogram.answers import (
     ShownRelation,
     ShownTrack,
 )
+from ilmek.jobs.studio.words import in_page
 from ilmek.params import Setting
 from ilmek.records import JsonObject, alike
 from ilmek.timing.cyclogram import (
@@ -132,7 +133,7 @@ def _relation(cyclogram: Cyclogram, relation: Relation) -> ShownRelation:
     most = relation.most if relation.most < math.inf else None
     margins = [math.inf if least is None else gap - least, math.inf if most is None else most - gap]
     return ShownRelation(
-        label=relation.label(cyclogram.units),
+        label=in_page(relation.label(cyclogram.units)),
         why=relation.why,
         first=first,
         then=then,
@@ -146,14 +147,14 @@ def _relation(cyclogram: Cyclogram, relation: Relation) -> ShownRelation:
 
 
 def _moment(cyclogram: Cyclogram, moment: Moment) -> ShownMoment:
-    return ShownMoment(moment.track, moment_angle(cyclogram, moment), moment.label(cyclogram.units))
+    return ShownMoment(moment.track, moment_angle(cyclogram, moment), in_page(moment.label(cyclogram.units)))
 
 
 def _exclusion(cyclogram: Cyclogram, exclusion: Exclusion) -> ShownExclusion:
     check = check_apart(cyclogram, exclusion)
     both = common(present(cyclogram, exclusion.first), present(cyclogram, exclusion.second))
     return ShownExclusion(
-        label=exclusion.label(cyclogram.units),
+        label=in_page(exclusion.label(cyclogram.units)),
         why=exclusion.why,
         first=_presence(cyclogram, exclusion.first),
         second=_presence(cyclogram, exclusion.second),
@@ -169,7 +170,7 @@ def _presence(cyclogram: Cyclogram, presence: Presence) -> ShownPresence:
     windows = _spans(present(cyclogram, presence))
     if isinstance(presence, Spans):
         return ShownPresence("", presence.name, windows)
-    return ShownPresence(presence.track, presence.label(cyclogram.units), windows, presence.low, presence.high)
+    return ShownPresence(presence.track, in_page(presence.label(cyclogram.units)), windows, presence.low, presence.high)
 
 
 def _spans(windows: Windows) -> list[list[float]]:
@@ -189,8 +190,8 @@ def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
         shown_unit=solution.unit,
         factor=from_si(1.0, solution.unit),
         binding=tuple(
-            ShownBinding(binding.label, binding.kind, binding_cost(binding, solution), binding.share, binding.cost)
-            for binding in solution.binding
+            ShownBinding(in_page(one.label), one.kind, binding_cost(one, solution), one.share, one.cost)
+            for one in solution.binding
         ),
     )
 

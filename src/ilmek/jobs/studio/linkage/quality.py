@@ -13,7 +13,7 @@ from ilmek.jobs.studio.linkage.answer import LinkageFault
 from ilmek.jobs.studio.linkage.motion import RunOptions, mechanism_run
 from ilmek.jobs.studio.linkage.part import machine_of_part, solved_part
 from ilmek.jobs.studio.linkage.tasks import MechanismRequest, drawn_mechanism, fault_of, plan_of
-from ilmek.jobs.studio.words import all_in_page, in_page
+from ilmek.jobs.studio.words import all_in_page, in_page, spoken
 from ilmek.linkage.circuits import Branch, Circuit, circuits
 from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.coupler_curve import coupler_curve
@@ -120,7 +120,7 @@ def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
         found,
         _curves(run, moved) if moved is not None else (),
         _transmission(run),
-        _mobility(run),
+        in_page(_mobility(run)),
         checks,
         all_in_page(warnings),
         all_in_page(left_out),
@@ -212,5 +212,5 @@ def _checks(run: MechanismRun, context: Context) -> tuple[tuple[JsonObject, ...]
         found = analysis(run, context.progress.part(0.6, 0.9, "forces"))
     except IlmekError as error:
         return (), (str(error),)
-    shown = (replace(check, cure=in_page(check.cure)) for check in found.checks)
+    shown = (spoken(replace(check, name=in_page(check.name))) for check in found.checks)
     return tuple(check.as_json() for check in shown), found.warnings

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.machine.view import designed
-from ilmek.jobs.studio.words import all_in_page
+from ilmek.jobs.studio.words import all_in_page, spoken
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import AnyComponent, Child
 from ilmek.params import Setting
@@ -77,12 +77,13 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
     children = tuple(machine.children(design))
     drawn, warnings = _drawn(machine, design, children, request.part)
     chosen = [one for one in drawn if request.names is None or one.name in request.names]
-    return MachineFigures(
+    answer = MachineFigures(
         shown_figures(chosen),
         tuple(NamedFigure(one.name, one.title, KINDS[type(one)]) for one in drawn),
         tuple(NamedPart(child.name, child.component.title) for child in children),
         all_in_page(warnings),
     )
+    return spoken(answer)
 
 
 def tables(request: TablesRequest, context: Context) -> MachineTables:
@@ -93,7 +94,7 @@ def tables(request: TablesRequest, context: Context) -> MachineTables:
     if request.part:
         child = _part(machine, tuple(machine.children(design)), request.part)
         component, design = child.component, child.design
-    return MachineTables([quiet(table) for table in component.tables(component.analysis(design))])
+    return spoken(MachineTables([quiet(table) for table in component.tables(component.analysis(design))]))
 
 
 def _part(machine: AnyComponent, children: tuple[Child, ...], part: str) -> Child:

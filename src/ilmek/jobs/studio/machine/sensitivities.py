@@ -9,6 +9,7 @@ from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.checks import ratio_of
 from ilmek.jobs.studio.machine.tasks import parameters_of, value_text
 from ilmek.jobs.studio.machine.view import judged, report_for
+from ilmek.jobs.studio.words import spoken
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Params, Setting, Value
 from ilmek.report import Check, Report
@@ -95,8 +96,8 @@ def sensitivities(request: SensitivityRequest, context: Context) -> Sensitivitie
         begin, finish = (0.02 + 0.98 * share / len(names) for share in (number, number + 1))
         context.progress.part(begin, finish, name)
         found.append(one := sensitivity_of(request.name, params, report, known[name]))
-        context.show(one)
-    return Sensitivities(tuple(found))
+        context.show(spoken(one))
+    return spoken(Sensitivities(tuple(found)))
 
 
 def sensitivity_of(name: str, params: Params, report: Report, parameter: Parameter) -> Sensitivity:

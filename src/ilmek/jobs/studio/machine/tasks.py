@@ -9,6 +9,7 @@ from ilmek.io.json_file import json_text
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.machines import machine_list
 from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.words import spoken
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, overridden, reachable
 from ilmek.records import alike
@@ -123,12 +124,12 @@ class DesignRequest:
 
 def list_of_machines(request: Nothing, context: Context) -> MachineList:
     """The machines of the catalogue."""
-    return MachineList(tuple(MachineSummary(name, summary) for name, summary in machine_list().items()))
+    return spoken(MachineList(tuple(MachineSummary(name, summary) for name, summary in machine_list().items())))
 
 
 def form(request: MachineName, context: Context) -> MachineFields:
     """The declared parameters of a machine. Raises ParameterError for an unknown one."""
-    return form_of(request.name)
+    return spoken(form_of(request.name))
 
 
 def reading(request: TypedValue, context: Context) -> ReadValue:

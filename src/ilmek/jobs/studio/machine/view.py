@@ -12,7 +12,7 @@ from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.checks import ShownCheck, finite, shown_check
 from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
-from ilmek.jobs.studio.words import all_in_page
+from ilmek.jobs.studio.words import all_in_page, spoken
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import AnyComponent
 from ilmek.params import Params, Setting, Value
@@ -142,7 +142,7 @@ _DESIGNS: dict[tuple[str, Params], tuple[Any, Report]] = {}
 def shown(report: Report, params: Params, seconds: float) -> DesignView:
     """A report as the studio shows it."""
     checks = tuple(_checks(report, ""))
-    return DesignView(
+    view = DesignView(
         machine=report.machine,
         title=report.title,
         holds=not report.failed,
@@ -156,6 +156,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         seconds=seconds,
         pending=find_machine(report.machine).assembly is not None and BUILDABLE not in report.names(),
     )
+    return spoken(view)
 
 
 def in_force(report: Report, params: Params) -> dict[str, ForceValue]:

@@ -18,6 +18,7 @@ from ilmek.jobs.studio.synthesis.gallery import (
     task_points,
 )
 from ilmek.jobs.studio.synthesis.task import is_exact
+from ilmek.jobs.studio.words import spoken
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.four_bar_figures import own_four_bar
 from ilmek.params import Params, Setting
@@ -62,7 +63,7 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
     design = machine.designed(params, context.progress.part(0.0, 1.0, "search"))
     choice = design.choice
     points, angles = task_points(design)
-    return alike(
+    answer = alike(
         SynthesisAnswer,
         choice,
         machine=name,
@@ -79,6 +80,7 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
         curves=pivot_curves(design),
         jam=JAM,
     )
+    return spoken(answer)
 
 
 def _read(request: SynthesisRequest) -> tuple[str, Params, bool]:
