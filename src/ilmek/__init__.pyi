@@ -57,6 +57,7 @@ from ilmek.api.programmes import run_loom as run_loom
 from ilmek.api.programmes import simulate_loom as simulate_loom
 from ilmek.api.studies import study as study
 from ilmek.api.tufted import compare as compare
+from ilmek.api.tufted import kilim as kilim
 from ilmek.api.tufted import tuft as tuft
 from ilmek.cams.plate import PlateCam as PlateCam
 from ilmek.cams.programme import CamProgramme as CamProgramme

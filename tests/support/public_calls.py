@@ -567,6 +567,20 @@ CALLS: dict[str, Call] = {
         ),
         long=True,
     ),
+    "kilim": Call(
+        lambda picture, out, **more: ilmek.kilim(picture, new_path(out) if out == "new" else out, **more),
+        (Other(MEDALLION, wrong=("no.png", 3)), Other("new", wrong=("a\0b", 3))),
+        dict(
+            size=Other("30x40cm", True, ("30x40", 3)),
+            yarns=Other(None, True, ("no.toml", 3)),
+            deadline=Other("4000h", True, ("400", "4kg", -1.0, np.nan, [1])),
+            cloth=Other({}, wrong=({"x": 1}, {1: 1}, 3)),
+            force=Other(False, wrong=("no", 3)),
+            progress=Other(ilmek.Progress()),
+            colours=Other(2, True, ("x", 0)),
+        ),
+        long=True,
+    ),
     "study": Call(
         ilmek.study,
         (Named("beat-up"), Other({"swing": "28deg..32deg"}, wrong=({1: "1..2"}, [1], {"swing": 3}, {"swing": "x"}))),

@@ -1,4 +1,4 @@
-"""Carpets by a tufting machine or a tufting gun, and measurements of machines."""
+"""Carpets by a tufting machine or a tufting gun, kilims, and measurements of machines."""
 
 from __future__ import annotations  # so that `help` shows the aliases
 
@@ -10,7 +10,8 @@ from ilmek.api.carpets import Settings
 from ilmek.arguments import Arguments, Quantity
 from ilmek.jobs import compare as comparing
 from ilmek.jobs.gun import GunResult, read_gun_order, weave_by_gun
-from ilmek.jobs.order import read_order
+from ilmek.jobs.kilim import KilimResult, read_kilim_order, weave_kilim
+from ilmek.jobs.order import CarpetOrder, read_order
 from ilmek.jobs.tufting import TuftingResult, read_tufting_order, weave_by_tufting
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
@@ -51,22 +52,63 @@ def tuft(
     True
     """
     given = Arguments("a carpet")
-    further: JsonObject = settings
-    order = read_order(
-        given.path("picture", picture),
-        size=None if size is None else given.text("size", size),
-        yarn_file=None if yarns is None else given.path("yarns", yarns),
-        **further,
-    )
+    order, limit = _order(given, picture, size, yarns, settings), _limit(given, deadline)
     own = given.mapping("machine", machine, lambda _, value: value)
-    limit = (
-        deadline if deadline is None or isinstance(deadline, str) else f"{given.number('deadline', deadline, 's')!r}s"
-    )
     folder, replace = given.path("out", out), given.flag("force", force)
     on = given.record("progress", progress, Progress)
     if given.one_of("technique", technique, TECHNIQUES) == "gun":
         return weave_by_gun(order, read_gun_order(order, own, limit), folder, force=replace, progress=on)
     return weave_by_tufting(order, read_tufting_order(order, own, limit), folder, force=replace, progress=on)
+
+
+def kilim(
+    picture: str | Path,
+    out: str | Path,
+    *,
+    size: str | None = None,
+    yarns: str | Path | None = None,
+    deadline: Quantity | None = None,
+    cloth: Settings = MappingProxyType({}),
+    force: bool = False,
+    progress: Progress = SILENT,
+    **settings: Setting,
+) -> KilimResult:
+    """Picture to a kilim, woven by hand of wefts that turn back at their colours, in the folder `out`.
+
+    cloth            its parameters by name: {"warps": "50/dm", "picks": "200/dm", "join": "dovetail"}
+    others           as of `tuft`
+
+    Where a slit is too long, the `checks` of the result name it, and there are no rows. Raises any IlmekError; then
+    nothing is written; Cancelled.
+
+    >>> import tempfile
+    >>> made = kilim("examples/medallion.png", Path(tempfile.mkdtemp()) / "kilim", size="40x60cm", colours=2)
+    >>> made.cloth.chart.rows * made.cloth.chart.columns > 10_000
+    True
+    """
+    given = Arguments("a kilim")
+    order, limit = _order(given, picture, size, yarns, settings), _limit(given, deadline)
+    wanted = read_kilim_order(order, given.mapping("cloth", cloth, lambda _, value: value), limit)
+    folder, replace = given.path("out", out), given.flag("force", force)
+    return weave_kilim(order, wanted, folder, force=replace, progress=given.record("progress", progress, Progress))
+
+
+def _order(
+    given: Arguments, picture: str | Path, size: str | None, yarns: str | Path | None, settings: Settings
+) -> CarpetOrder:
+    further: JsonObject = dict(settings)
+    return read_order(
+        given.path("picture", picture),
+        size=None if size is None else given.text("size", size),
+        yarn_file=None if yarns is None else given.path("yarns", yarns),
+        **further,
+    )
+
+
+def _limit(given: Arguments, deadline: Quantity | None) -> str | None:
+    if deadline is None or isinstance(deadline, str):
+        return deadline
+    return f"{given.number('deadline', deadline, 's')!r}s"
 
 
 def compare(

@@ -13,7 +13,7 @@ from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.loom.account import stop_duration
 from ilmek.loom.operations import LoomSetup, Stop
 from ilmek.units import format_quantity
-from ilmek.weaving.draft import Draft
+from ilmek.weaving.draft import WeavingDraft
 
 MOST_RUNS = 4000
 """Largest number of runs of a row that are printed; a table of more takes seconds, and nobody reads it."""
@@ -65,7 +65,7 @@ def command(file: Path, number: int | None, force: bool, json_to: str | None) ->
         show_row(inspection_result)
 
 
-def show_draft(draft: Draft) -> None:
+def show_draft(draft: WeavingDraft) -> None:
     """Print threads, shafts, spacing, weave and colours of a draft."""
     picks, warps = draft.up.shape
     floats = f"longest float {draft.warp_float} picks in the warp, {draft.weft_float} warps in the weft"

@@ -10,7 +10,7 @@ from ilmek.arrays import BoolArray, Rgb
 from ilmek.errors import LoomError, restated
 from ilmek.io.text_file import read_text
 from ilmek.units import cm, mm
-from ilmek.weaving.draft import Draft
+from ilmek.weaving.draft import WeavingDraft
 
 LARGEST_FILE, MOST_THREADS, MOST_SHAFTS = 10_000_000, 5_000, 1_000
 """Bytes of a file; warps or picks, and shafts or treadles of a draft."""
@@ -24,7 +24,7 @@ def is_draft(path: Path) -> bool:
     return path.suffix.lower() == ".wif"
 
 
-def read_draft(path: Path) -> Draft:
+def read_draft(path: Path) -> WeavingDraft:
     """The draft of a WIF file. Raises LoomError for a file that is none, with the section and the key at fault."""
     with restated(LoomError, f"{path}: "):
         text = read_text(path, noun="WIF file", largest=LARGEST_FILE, error=LoomError, do="give a WIF file")
@@ -46,7 +46,7 @@ class _Reader:
         if "wif" not in sections:
             raise LoomError("has no section [WIF]", do="save it as WIF 1.1")
 
-    def draft(self) -> Draft:
+    def draft(self) -> WeavingDraft:
         """What the sections say."""
         warps, picks = (self.whole(name, "threads", MOST_THREADS) for name in ("warp", "weft"))
         shafts = self.whole("weaving", "shafts", MOST_SHAFTS)
@@ -61,7 +61,7 @@ class _Reader:
         if self.value("weaving", "rising shed", "true").lower() in {"false", "no", "off", "0"}:
             up = ~up
         warp, weft = self.colours("warp", warps), self.colours("weft", picks)
-        return Draft(up, shafts, treadles, warp, weft, self.pitch("warp"), self.pitch("weft"))
+        return WeavingDraft(up, shafts, treadles, warp, weft, self.pitch("warp"), self.pitch("weft"))
 
     def value(self, section: str, key: str, usual: str | None = None) -> str:
         found = self.sections.get(section, {}).get(key, usual)

@@ -9,17 +9,16 @@ from ilmek.errors import ParameterError
 from ilmek.io.gcode import write_gcode
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
-from ilmek.jobs.chart import ChartResult, job_json
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import UnknottedResult, charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.tufting_gun.design import TuftedByGun, tufted_by_gun
 from ilmek.machines.tufting_gun.params import TuftingGunParams
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import Check, Json, Result, results_of
+from ilmek.report import Check, Result, results_of
 from ilmek.viz.gun_page import gun_page
 from ilmek.weaving.gun.plan import CELLS, gun_plan
 
@@ -35,30 +34,17 @@ class GunOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class GunResult:
+class GunResult(UnknottedResult):
     """A carpet by a tufting gun, its results, and the folder of its files."""
 
-    charted: ChartResult
     order: GunOrder
     tufted: TuftedByGun
     results: tuple[Result, ...]
-    folder: Path
-    written: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """What the chart keeps of the picture, then gun and gantry."""
         return (*self.tufted.checks, *kept_checks(self.charted.chart, self.charted.order.order))
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was changed of the picture."""
-        return self.charted.notes
-
-    @property
-    def files(self) -> list[str]:
-        """The paths of the files."""
-        return [str(self.folder / name) for name in self.written]
 
 
 def read_gun_order(order: CarpetOrder, settings: Mapping[str, Setting], deadline: str | None = None) -> GunOrder:
@@ -112,23 +98,13 @@ def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progr
     least = params.least_coverage
     plan = gun_plan(chart.knots, size, params.row_spacing, params.feature, least=least, progress=rows)
     tufted = tufted_by_gun(gun.params, plan, cones_of(charted), gun.deadline)
-    return GunResult(charted, gun, tufted, results_of(tufted), folder)
+    return GunResult(charted, folder, gun, tufted, results_of(tufted))
 
 
 def gun_json(result: GunResult) -> JsonObject:
     """The JSON of the job."""
-    results: dict[str, Json] = {
-        "technique": "gun",
-        "tufts": all(check.ok for check in result.checks),
-        "width": result.tufted.plan.width,
-        "length": result.tufted.plan.length,
-        **{one.name: one.value for one in result.results},
-    }
-    return job_json(
-        "weave",
-        {**result.charted.order.as_dict(), "gun": result.order.params.as_dict(), "deadline": result.order.deadline},
-        results,
-        checks=result.checks,
-        notes=list(result.notes),
-        files=result.files,
+    plan, order, checks = result.tufted.plan, result.order, result.checks
+    found = {"tufts": all(check.ok for check in checks), "width": plan.width, "length": plan.length}
+    return result.as_json(
+        "gun", order.params.as_dict(), order.deadline, found=found, results=result.results, checks=checks
     )

@@ -13,16 +13,15 @@ from ilmek.io.chart.join_marks import kilim_printing
 from ilmek.io.json_file import write_json
 from ilmek.io.kilim_rows import write_kilim_rows
 from ilmek.io.output import Outputs, joined
-from ilmek.jobs.chart import ChartResult, job_json
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import UnknottedResult, charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import Check, Json, Result, results_of
+from ilmek.report import Check, Result, results_of
 from ilmek.viz.kilim_picture import draw_kilim
 from ilmek.viz.tufted_page import kilim_page
 
@@ -38,30 +37,17 @@ class KilimOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class KilimResult:
+class KilimResult(UnknottedResult):
     """A carpet as a kilim, its results, and the folder of its files."""
 
-    charted: ChartResult
     order: KilimOrder
     cloth: KilimCloth
     results: tuple[Result, ...]
-    folder: Path
-    written: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Slits and time, then what the chart keeps of the picture."""
         return (*self.cloth.checks, *kept_checks(self.charted.chart, self.charted.order.order))
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was changed of the picture."""
-        return self.charted.notes
-
-    @property
-    def files(self) -> list[str]:
-        """The paths of the files."""
-        return [str(self.folder / name) for name in self.written]
 
 
 def read_kilim_order(order: CarpetOrder, settings: Mapping[str, Setting], deadline: str | None = None) -> KilimOrder:
@@ -127,26 +113,19 @@ def _charted(order: CarpetOrder, kilim: KilimOrder, folder: Path, progress: Prog
     warp = order.plan.price("warp", order.plan.ground().yarns.warp)
     known = KilimPrices(prices, warp, CostRates().wage)
     cloth = kilim_cloth(charted.chart, kilim.params, order.plan.ground(), known, kilim.deadline)
-    return KilimResult(charted, kilim, cloth, results_of(cloth), folder)
+    return KilimResult(charted, folder, kilim, cloth, results_of(cloth))
 
 
 def kilim_json(result: KilimResult) -> JsonObject:
     """The JSON of the job."""
-    chart = result.cloth.chart
-    results: dict[str, Json] = {
-        "technique": "kilim",
-        "weaves": all(check.ok for check in result.checks),
+    chart, order, checks = result.cloth.chart, result.order, result.checks
+    found = {
+        "weaves": all(check.ok for check in checks),
         "width": chart.size.width,
         "length": chart.size.length,
         "rows": chart.rows,
         "columns": chart.columns,
-        **{one.name: one.value for one in result.results},
     }
-    return job_json(
-        "weave",
-        {**result.charted.order.as_dict(), "kilim": result.order.params.as_dict(), "deadline": result.order.deadline},
-        results,
-        checks=result.checks,
-        notes=list(result.notes),
-        files=result.files,
+    return result.as_json(
+        "kilim", order.params.as_dict(), order.deadline, found=found, results=result.results, checks=checks
     )

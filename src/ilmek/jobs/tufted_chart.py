@@ -1,6 +1,8 @@
-"""The chart of a carpet that is tufted: its resolution is that of the machine, its yarns stand on cones."""
+"""The chart of a carpet that is not knotted: its resolution is that of machine or cloth; the result and its JSON."""
 
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from ilmek.carpet.cells import PLAIN
 from ilmek.carpet.picture_points import hex_colour
@@ -8,11 +10,52 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.yarn_plan import parse_count
 from ilmek.errors import CarpetError
 from ilmek.io.chart.formats import format_of
-from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.chart import ChartResult, job_json, make_charted
 from ilmek.jobs.order import CarpetOrder
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
+from ilmek.report import Check, Json, Result
 from ilmek.weaving.tufts import Cone
+
+
+@dataclass(frozen=True, slots=True)
+class UnknottedResult:
+    """What the carpets by gun, by tufting machine and as kilim have alike: their chart, folder and files."""
+
+    charted: ChartResult
+    folder: Path
+    written: tuple[str, ...] = field(default=(), kw_only=True)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was changed of the picture."""
+        return self.charted.notes
+
+    @property
+    def files(self) -> list[str]:
+        """The paths of the files."""
+        return [str(self.folder / name) for name in self.written]
+
+    def as_json(
+        self,
+        technique: str,
+        params: JsonObject,
+        deadline: float | None,
+        *,
+        found: Mapping[str, Json],
+        results: Sequence[Result],
+        checks: Sequence[Check],
+    ) -> JsonObject:
+        """The JSON of the job. found: before the results."""
+        return job_json(
+            "weave",
+            {**self.charted.order.as_dict(), technique: params, "deadline": deadline},
+            {"technique": technique, **found, **{one.name: one.value for one in results}},
+            checks=checks,
+            notes=list(self.notes),
+            files=self.files,
+        )
 
 
 def yarn_setting(order: CarpetOrder) -> dict[str, Setting]:

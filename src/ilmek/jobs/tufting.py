@@ -15,12 +15,12 @@ from ilmek.errors import ParameterError
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.tufting_file import read_tufting, write_tufting
-from ilmek.jobs.chart import ChartResult, job_json, make_charted
+from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.loom import make_loomed, params_for, read_loom_order
 from ilmek.jobs.making import Making
 from ilmek.jobs.order import CarpetOrder
-from ilmek.jobs.tufted_chart import charted_for, cones_of, yarn_setting
+from ilmek.jobs.tufted_chart import UnknottedResult, charted_for, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
 from ilmek.machines.tufting_machine import MACHINE, TuftingMachine, TuftingMachineParams
 from ilmek.machines.tufting_machine.params import BY_NEEDLE, SCROLLS
@@ -64,19 +64,16 @@ class TuftingOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class TuftingResult:
+class TuftingResult(UnknottedResult):
     """A carpet by a tufting machine, the machine's report, and the folder of its files.
 
     more_notes  beside those of the chart
     """
 
-    charted: ChartResult
     order: TuftingOrder
     machine: Report
     tufted: TuftedPicture
     more_notes: tuple[str, ...]
-    folder: Path
-    written: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -98,11 +95,6 @@ class TuftingResult:
     def results(self) -> tuple[Result, ...]:
         """Those of the picture."""
         return results_of(self.tufted)
-
-    @property
-    def files(self) -> list[str]:
-        """The paths of the files."""
-        return [str(self.folder / name) for name in self.written]
 
 
 def read_tufting_order(
@@ -156,7 +148,7 @@ def weave_by_tufting(
             programme = read_tufting(work / PROGRAMME)
             face = tufted_face(programme, progress.part(0.75, 0.9, "twin"))
             tufted = TuftedPicture(machine, programme, face, labels, heights, cones, knotted, tufting.deadline)
-            result = TuftingResult(charted, tufting, report, tufted, notes, folder)
+            result = TuftingResult(charted, folder, tufting, report, tufted, notes)
             if not result.tufts:
                 (work / PROGRAMME).unlink()
             bare = bool(((face.colours == BARE) & (labels != BARE)).any())
@@ -241,24 +233,8 @@ def knotted_cost(order: CarpetOrder, progress: Progress = SILENT) -> float | Non
 
 def tufting_json(result: TuftingResult) -> JsonObject:
     """The JSON of the job."""
-    chart = result.charted.chart
-    results: dict[str, Json] = {
-        "technique": "tufting",
-        "tufts": result.tufts,
-        "width": chart.size.width,
-        "length": chart.size.length,
-        **{one.name: one.value for one in result.results},
-        "machine": result.machine.own().as_json(),
-    }
-    return job_json(
-        "weave",
-        {
-            **result.charted.order.as_dict(),
-            "tufting": result.tufted.machine.params.as_dict(),
-            "deadline": result.order.deadline,
-        },
-        results,
-        checks=result.checks,
-        notes=list(result.notes),
-        files=result.files,
-    )
+    size, params = result.charted.chart.size, result.tufted.machine.params
+    found: dict[str, Json] = {"tufts": result.tufts, "width": size.width, "length": size.length}
+    found["machine"] = result.machine.own().as_json()
+    own, deadline = params.as_dict(), result.order.deadline
+    return result.as_json("tufting", own, deadline, found=found, results=result.results, checks=result.checks)

@@ -6,6 +6,7 @@ from ilmek.io.picture import Picture as Picture
 from ilmek.jobs.check import CheckResult as CheckResult
 from ilmek.jobs.gun import GunResult as GunResult
 from ilmek.jobs.inspect import InspectionResult as InspectionResult
+from ilmek.jobs.kilim import KilimResult as KilimResult
 from ilmek.jobs.plan import PlanResult as PlanResult
 from ilmek.jobs.plc.program import PlcResult as PlcResult
 from ilmek.jobs.reproduce import ReproductionResult as ReproductionResult

@@ -10,7 +10,7 @@ from ilmek.records import JsonObject, record
 
 
 @record
-class Draft:
+class WeavingDraft:
     """A draft, as a loom with shafts weaves it.
 
     up      warps above each pick (picks, warps), pick 0 first     shafts, treadles  of the loom; 0: a lift plan
@@ -30,7 +30,7 @@ class Draft:
     def face(self) -> Rgb:
         """The colour that is seen at each crossing (picks, warps, 3).
 
-        >>> over = Draft(np.eye(2, dtype=bool), 2, 2, np.zeros((2, 3), np.uint8), np.full((2, 3), 255, np.uint8))
+        >>> over = WeavingDraft(np.eye(2, dtype=bool), 2, 2, np.zeros((2, 3), np.uint8), np.full((2, 3), 255, np.uint8))
         >>> over.face[..., 0].tolist()
         [[0, 255], [255, 0]]
         """

@@ -84,8 +84,11 @@ class OrderPage:
         self.y -= 0.6 * size + 8.0
 
     def facts(self, facts: Iterable[tuple[str, str]], x: float = LEFT, beside: float = 110.0) -> None:
-        """Names with their values."""
-        for name, value in facts:
+        """Names with their values, which begin `beside` them, or behind the longest name."""
+        listed = list(facts)
+        self.canvas.setFont(TEXT, 9)
+        beside = max(beside, *(self.canvas.text_width(name) + 8.0 for name, _ in listed))
+        for name, value in listed:
             self.room(14.0)
             self.write(x, self.y, name, 9, grey=True)
             self.paragraph(value, x + beside, 9)
