@@ -191,6 +191,8 @@ def test_a_longer_needle_bar_span_bends_as_the_fourth_power() -> None:
         ({"low_height": "12mm"}, "low_height=12 mm"),
         ({"needle.bars": "3"}, "needle.bars given"),
         ({"gauge": "0.1mm"}, "gauge"),
+        ({"pile": "cut", "knife.distance": "40mm"}, "the knives' bar is"),
+        ({"pile": "cut", "knife.overlap": "20mm", "knife.depth": "5mm", "knife.distance": "20mm"}, "knives"),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(settings: dict[str, str], words: str) -> None:
