@@ -107,7 +107,7 @@ def latch_part(params: TuftingMachineParams) -> Part | None:
     if params.pattern.selection != BY_NEEDLE:
         return None
     row = solenoid_of(params)
-    bought = Bought(row.designation, row.mass, power=row.power, drives=1)
+    bought = Bought(row.designation, row.mass, power=row.power)
     held = "bonded on the needle bar"
     return bought_part(LATCH, "latch of a needle", "solenoid", bar(row.diameter, row.length), bought, fixing=held)
 
