@@ -322,10 +322,13 @@ PARTS = {
 }
 """Parts whose files are read again: journals, bores, squares, keyways, faces; with and without datums."""
 
+NARROW = {"cloth.warps": "40"}
+"""A comb of few leaves: the kernel reads a bar of 600 slots in 30 s."""
+
 
 @pytest.mark.parametrize("machine", PARTS)
 def test_every_tolerance_of_a_part_is_found_again_in_its_file(machine: str) -> None:
-    tree = _tree(machine, {})
+    tree = _tree(machine, NARROW if machine == "hammer" else {})
     tolerances, parts = tolerances_of(tree), {part.id: part for part, _ in tree.occurrences()}
     for name in PARTS[machine]:
         features = tolerances[f"{machine}/{name}"]

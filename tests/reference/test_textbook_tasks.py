@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import textbook_tasks as tasks
+from default_machines import SETTLED
 
 import ilmek
 from ilmek.units import deg, mm, rpm
@@ -130,18 +131,20 @@ def test_forces_with_friction_runs_and_several_inputs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "varied", "values", "result"),
+    ("name", "varied", "values", "result", "settings"),
     [
-        ("beat-up", "swing", (20 * deg, 25 * deg, 30 * deg), "transmission_angle_min"),
-        pytest.param("automated-loom", "width", (0.8, 1.0), "price", marks=pytest.mark.one_in(8)),
+        ("beat-up", "swing", (20 * deg, 25 * deg, 30 * deg), "transmission_angle_min", {}),
+        ("automated-loom", "width", (0.8, 1.0), "price", SETTLED | {"beat": "comb"}),
     ],
 )
-def test_machines_of_listed_values(name: str, varied: str, values: tuple[float, ...], result: str) -> None:
+def test_machines_of_listed_values(
+    name: str, varied: str, values: tuple[float, ...], result: str, settings: dict[str, str]
+) -> None:
     unit = "deg" if varied == "swing" else "m"
     texts = ", ".join(f"{value / (deg if unit == 'deg' else 1)}{unit}" for value in values)
-    found = tasks.machines(name, {varied: texts}, [result])
+    found = tasks.machines(name, {varied: texts}, [result], settings)
     assert found.values(varied) == pytest.approx(values)
-    alone = [ilmek.design(name, {varied: value}).number(result) for value in values]
+    alone = [ilmek.design(name, settings | {varied: value}).number(result) for value in values]
     assert found.values(result) == pytest.approx(alone)
 
 

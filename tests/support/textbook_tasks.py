@@ -108,8 +108,8 @@ def chart_of_an_array(knots):
     return chart, chart.statistics, chart.bill()
 
 
-def machines(name, values, results):
-    return il.study(name, values, record=results)
+def machines(name, values, results, fixed):
+    return il.study(name, values, record=results, fixed=fixed)
 
 
 def frames():

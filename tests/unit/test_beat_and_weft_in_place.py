@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from default_machines import loom_report
+from default_machines import SETTLED, loom_report
 
 from ilmek.machines.automated_loom import MACHINE as LOOM
 from ilmek.machines.automated_loom.in_space.scene import scene
@@ -16,7 +16,7 @@ LOOMS = ((), (("beat", "linkage"),), (("beat", "comb"), ("width", "0.6m")))
 
 @cache
 def _scene(*settings: tuple[str, str]) -> Scene:
-    loom = LOOM.design(LOOM.params.read({"aim": "price", **dict(settings)}))
+    loom = LOOM.design(LOOM.params.read({"aim": "price", **SETTLED, "weft": "shuttle", **dict(settings)}))
     return scene(loom, loom_report(loom))
 
 

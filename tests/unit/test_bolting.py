@@ -7,6 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from default_machines import SETTLED
 from made_parts import measured
 
 from ilmek.arrays import Float, FloatArray
@@ -27,7 +28,7 @@ from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.report.scene import Solid
 from ilmek.units import mm, um
 
-SETTINGS = ({}, {"beat": "linkage"})
+SETTINGS = (SETTLED, {**SETTLED, "beat": "linkage"})
 LONE = ("weft", "tufting-machine", "shedding", "hammer", "beat-up")
 
 

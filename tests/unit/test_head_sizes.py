@@ -3,7 +3,7 @@
 from functools import cache
 
 import pytest
-from default_machines import loom_report
+from default_machines import SETTLED, loom_report
 
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
@@ -22,7 +22,7 @@ SIZES = ("cam_thickness", "cam_gap", "cam_belt", "tool_mass", "sley_stroke")
 
 @cache
 def loom(knots: float, **others: str) -> LoomDesign:
-    settings = {"knots_across": f"{knots}/dm", "width": "0.6m", "length": "0.9m", "beat": "comb", **others}
+    settings = {"knots_across": f"{knots}/dm", "width": "0.6m", "length": "0.9m", "beat": "comb", **SETTLED, **others}
     return design(AutomatedLoomParams.read({"aim": "price", **settings}))
 
 

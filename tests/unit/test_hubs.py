@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from axial import loose_hubs
-from default_machines import default_design
+from default_machines import SETTLED, default_design
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,7 +35,7 @@ from ilmek.report.sheet import Issue
 from ilmek.viz.drawings.compose import sheets_of
 from ilmek.viz.drawings.drawn_part import drawn_piece
 
-LOOMS = ({}, {"beat": "linkage"}, {"knotting": "arms"})
+LOOMS = (SETTLED, {**SETTLED, "beat": "linkage"}, {**SETTLED, "knotting": "arms"})
 TREES = (
     *(("automated-loom", tuple(settings.items())) for settings in LOOMS),
     *((name, ()) for name, machine in MACHINES.items() if machine.tree is not None),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from default_machines import out_of_space
+from default_machines import SETTLED, out_of_space
 
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.jobs.chart import ChartResult, make_charted
@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom import AutomatedLoomParams
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
 BY_HAND = {"knotting": "hand", "shed": "hand", "beat": "hand", "weavers": "2"}
-LOOMS = {"hand loom": BY_HAND, "weavers": {"knotting": "hand", "weavers": "2", "beat": "comb"}, "heads": {}}
+LOOMS = {"hand loom": BY_HAND, "weavers": {"knotting": "hand", "weavers": "2", "beat": "comb"}, "heads": SETTLED}
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
 
@@ -31,7 +31,9 @@ def loomed(loom: dict[str, str], shape: str | None, deadline: str | None = None)
     order = read_order(MEDALLION, size="150x150cm", quality="12x12/dm", shape=shape)
     charted = make_charted(order)
     return charted, make_loomed(
-        read_loom_order(order, loom=loom, heads=None if loom else 1, deadline=deadline), charted, illustrated=False
+        read_loom_order(order, loom=loom, heads=1 if loom is SETTLED else None, deadline=deadline),
+        charted,
+        illustrated=False,
     )
 
 

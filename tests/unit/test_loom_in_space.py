@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from default_machines import loom_report
+from default_machines import SETTLED, loom_report
 from plate_solids import plate_solid
 
 from ilmek.elements.columns import STEEL
@@ -31,7 +31,7 @@ from ilmek.timing.track import sample
 
 @cache
 def _made(*settings: tuple[str, str]) -> tuple[LoomDesign, Scene]:
-    loom = MACHINE.designed(MACHINE.params.read({"aim": "price", **dict(settings)}))
+    loom = MACHINE.designed(MACHINE.params.read({"aim": "price", **SETTLED, **dict(settings)}))
     return loom, scene(loom, loom_report(loom))
 
 

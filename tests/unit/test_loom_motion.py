@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from default_machines import SETTLED
 
 from ilmek.cli import main
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
@@ -22,7 +23,7 @@ from ilmek.timing.track import sample
 
 @cache
 def loom(**settings: str) -> LoomDesign:
-    return design(AutomatedLoomParams.read({"aim": "price", "heads": "4", **settings}))
+    return design(AutomatedLoomParams.read({"aim": "price", **SETTLED, "heads": "4", **settings}))
 
 
 def stroke(animation: Animation, label: str) -> MovingStroke:
@@ -134,7 +135,8 @@ def test_a_head_with_arms_has_no_views_of_grippers() -> None:
 @pytest.mark.usefixtures("not_in_space")
 def test_a_motion_is_written_by_its_name(tmp_path: Path) -> None:
     target = tmp_path / "knot.gif"
-    call = ["design", "automated-loom", "beat=comb", "--animation", str(target), "--motion", "loom-knot-front"]
+    settings = [f"{name}={value}" for name, value in {**SETTLED, "beat": "comb"}.items()]
+    call = ["design", "automated-loom", *settings, "--animation", str(target), "--motion", "loom-knot-front"]
     done = CliRunner().invoke(main, call)
     assert (done.exit_code, target.read_bytes()[:6]) == (0, b"GIF89a")
     unknown = CliRunner().invoke(main, [*call[:-1], "dance", "--force"])

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from default_machines import SETTLED
 from PIL import Image
 from processes import PATIENCE, until
 
@@ -22,8 +23,10 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pixels[:, ::2] = (180, 30, 30)
     (folder / "pictures").mkdir()
     Image.fromarray(pixels).save(folder / "pictures" / "small.png")
-    recipe = 'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n'
-    (folder / "carpet.toml").write_text(recipe)
+    recipe = (
+        'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n[loom]\nbeat = "comb"\n'
+    )
+    (folder / "carpet.toml").write_text(recipe + "".join(f'{name} = "{value}"\n' for name, value in SETTLED.items()))
     return folder
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from default_machines import default_report
+from default_machines import SETTLED, default_report
 
 from ilmek.cli import main
 from ilmek.errors import ParameterError
@@ -86,14 +86,17 @@ def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: 
     assert changed in settings
 
 
+FINE = {**SETTLED, "knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m", "beat": "comb"}
+"""A loom that fails checks."""
+
+
 def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_then_those_in_space() -> None:
-    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m", "beat": "comb"}
-    seen = view(DesignRequest("automated-loom", settings), HERE)
+    seen = view(DesignRequest("automated-loom", FINE), HERE)
     assert not seen.holds
     assert seen.failed == len(seen.reasons)
     assert {one.machine for one in seen.checks} >= {"", "weaver", "shedding", "warp-tension"}
     assert seen.pending
-    whole = in_space(DesignRequest("automated-loom", settings), HERE)
+    whole = in_space(DesignRequest("automated-loom", FINE), HERE)
     assert not whole.pending
     assert {one.name for one in seen.checks} < {one.name for one in whole.checks}
     assert "buildable" in {one.name for one in whole.results} - {one.name for one in seen.results}
@@ -112,8 +115,8 @@ def test_figures_are_those_of_the_page_chosen_by_name(name: str) -> None:
 
 
 def test_figures_of_a_machine_in_the_loom_are_without_those_of_its_own_page_alone() -> None:
-    found = figures(FiguresRequest("automated-loom", {}, part="shedding", names=()), HERE)
+    found = figures(FiguresRequest("automated-loom", FINE, part="shedding", names=()), HERE)
     assert "shedding" in {one.name for one in found.parts}
     assert any(one.kind == "animation" for one in found.known)
     with pytest.raises(ParameterError, match="no part"):
-        figures(FiguresRequest("automated-loom", {}, part="tufting"), HERE)
+        figures(FiguresRequest("automated-loom", FINE, part="tufting"), HERE)
