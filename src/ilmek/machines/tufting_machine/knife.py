@@ -234,5 +234,6 @@ def knife_parts(params: TuftingMachineParams, drive: KnifeDrive, needles: int, l
     shape = Prism(Profile(outline), knife.thickness)
     part = Part(KNIFE, "knife", "laser-cut part", shape, STEEL, joins=(KNIFE_BAR,))
     pitch, square = params.width / params.drives, (top - 1j * foot, knife.bar, along)
-    made = rocker_parts(drive.drive, drive.moves.plan.mechanism, params.looper, pitch, square, like=like)
+    shift = knife.gap + (params.looper.thickness + knife.thickness) / 2
+    made = rocker_parts(drive.drive, drive.moves.plan.mechanism, params.looper, pitch, square, like=like, shift=shift)
     return KnifeParts(params, needles, made, part)
