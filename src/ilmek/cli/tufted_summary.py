@@ -16,7 +16,8 @@ from ilmek.jobs.kilim import KilimResult, kilim_json, read_kilim_order, weave_ki
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.tufting import TuftingResult, read_tufting_order, tufting_json, weave_by_tufting
-from ilmek.report.results import result_text
+from ilmek.report.results import Result, result_text
+from ilmek.sentences import Sentence
 from ilmek.units import format_quantity
 
 KNOTTED, GUN, TUFTING, KILIM = TECHNIQUES = ("knotted", "gun", "tufting", "kilim")
@@ -79,15 +80,15 @@ def weave_tufted(
 
 def gun_pairs(made: GunResult) -> list[tuple[str, str]]:
     """The carpet, its rows and travel beside their bounds, yarn, time and cost, one line each."""
-    values = {result.name: result_text(result.value, result.unit) for result in made.results}
+    values = _texts(made.results)
     plan = made.tufted.plan
-    size = " x ".join(format_quantity(side, "cm") for side in (plan.width, plan.length))
+    size, spacing = _size(plan.width, plan.length), format_quantity(plan.spacing, "mm")
     return [
-        ("carpet", f"{size}, rows of {format_quantity(plan.spacing, 'mm')}, {len(plan.colours)} colours"),
-        ("rows", f"{values['row_length']} (at least {values['row_bound']}), {values['strokes']} strokes"),
-        ("travel", f"{values['travel']} (at least {values['travel_bound']})"),
-        ("covered", f"{values['covered']} of the carpet, at least {values['coverage']} of each region"),
-        ("yarn", f"{values['gun_yarn']}, {values['gun_yarn_mass']}"),
+        ("carpet", Sentence("tufted.gun-carpet", size=size, spacing=spacing, colours=len(plan.colours))),
+        ("rows", Sentence("tufted.gun-rows", **values)),
+        ("travel", Sentence("tufted.gun-travel", **values)),
+        ("covered", Sentence("tufted.gun-covered", **values)),
+        ("yarn", Sentence("tufted.gun-yarn", **values)),
         ("time", values["tufting_time"]),
         ("cost", _price(made.tufted.gun_cost["sum"])),
     ]
@@ -95,36 +96,43 @@ def gun_pairs(made: GunResult) -> list[tuple[str, str]]:
 
 def tufting_pairs(made: TuftingResult) -> list[tuple[str, str]]:
     """The carpet, machine, yarn, time, and the cost beside that of the knotted carpet, one line each."""
-    values = {result.name: result_text(result.value, result.unit) for result in made.results}
-    tufted = made.tufted
+    values, tufted = _texts(made.results), made.tufted
     programme, grid, cost = tufted.programme, tufted.programme.grid, tufted.tufting_cost
-    size = " x ".join(
-        format_quantity(side, "cm") for side in (programme.columns * grid.gauge, programme.rows * grid.stitch)
-    )
-    pattern = tufted.machine.params.pattern
+    size = _size(programme.columns * grid.gauge, programme.rows * grid.stitch)
+    cells, pattern = f"{programme.columns} x {programme.rows}", tufted.machine.params.pattern
+    fed = {"needles": programme.threads.size, "attachment": pattern.attachment, "selection": pattern.selection}
+    knotted = Sentence("tufted.cost", cost=_price(cost["sum"]), knotted=_price(cost["knotted"]))
     return [
-        ("carpet", f"{size}, {programme.columns} x {programme.rows} tufts, {len(tufted.cones)} colours"),
-        ("machine", f"{programme.threads.size} needles, {pattern.attachment}, selected by {pattern.selection}"),
-        ("strokes", f"{values['needle_strokes']}, {values['loops']} loops, {values['misplaced']} tufts off colour"),
-        ("yarn", f"{values['tufted_yarn']}, {values['tufted_yarn_mass']}, {values['tufted_mass_per_area']}"),
-        ("time", f"{values['tufting_time']}, {values['tufting_production']}"),
-        ("cost", f"{_price(cost['sum'])}; knotted on a loom {_price(cost['knotted'])}"),
+        ("carpet", Sentence("tufted.carpet", size=size, cells=cells, colours=len(tufted.cones))),
+        ("machine", Sentence("tufted.machine", **fed)),
+        ("strokes", Sentence("tufted.strokes", **values)),
+        ("yarn", Sentence("tufted.yarn", **values)),
+        ("time", Sentence("tufted.time", **values)),
+        ("cost", knotted),
     ]
 
 
+def _texts(results: Sequence[Result]) -> dict[str, str]:
+    return {result.name: result_text(result.value, result.unit) for result in results}
+
+
+def _size(*sides: float) -> str:
+    return " x ".join(format_quantity(side, "cm") for side in sides)
+
+
 def _price(cost: float | None) -> str:
-    return "not known" if cost is None else f"{cost:,.2f} EUR"
+    return Sentence("tufted.no-price") if cost is None else f"{cost:,.2f} EUR"
 
 
 def kilim_pairs(made: KilimResult) -> list[tuple[str, str]]:
     """The carpet, its slits and bobbins, weft, time and cost, one line each."""
-    values = {result.name: result_text(result.value, result.unit) for result in made.results}
-    cloth = made.cloth
+    values, cloth = _texts(made.results), made.cloth
+    grid = {"rows": cloth.chart.rows, "columns": cloth.chart.columns}
     return [
-        ("carpet", f"{cloth.in_words}; {cloth.chart.rows} rows of {cloth.chart.columns} cells"),
-        ("slits", f"longest {values['slit_length']}, {values['slits_joined']} too long, {values['joins_woven']} joins"),
-        ("bobbins", f"{values['mean_bobbins']} a row, at most {values['bobbins_per_row']}"),
-        ("weft", f"{values['weft_length']}, {values['weft_mass']}; warp {values['warp_mass']}; {values['cloth_mass']}"),
+        ("carpet", Sentence("tufted.kilim-carpet", size=cloth.in_words, **grid)),
+        ("slits", Sentence("tufted.kilim-slits", **values)),
+        ("bobbins", Sentence("tufted.kilim-bobbins", **values)),
+        ("weft", Sentence("tufted.kilim-weft", **values)),
         ("time", values["kilim_time"]),
         ("cost", _price(cloth.kilim_cost["sum"])),
     ]

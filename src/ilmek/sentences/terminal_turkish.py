@@ -16,6 +16,22 @@ TERMINAL = {
     "terminal.tests": "hesabın sınamaları: {count} sınamanın hepsi geçti",
     "terminal.tests-one": "hesabın sınamaları: tek sınama geçti",
     "terminal.tests-failed": "hesabın sınamaları: {count} sınamadan {failed} kaldı: {names}",
+    "tufted.gun-carpet": "{size}, sıra aralığı {spacing}, {colours} renk",
+    "tufted.gun-rows": "{row_length} (en az {row_bound}), {strokes} çizgi",
+    "tufted.gun-travel": "{travel} (en az {travel_bound})",
+    "tufted.gun-covered": "halının {covered} kadarı, her bölgenin en az {coverage} kadarı",
+    "tufted.gun-yarn": "{gun_yarn}, {gun_yarn_mass}",
+    "tufted.carpet": "{size}, {cells} ilmek yeri, {colours} renk",
+    "tufted.machine": "{needles} iğne, besleme {attachment}, seçim {selection}",
+    "tufted.strokes": "{needle_strokes}, {loops} ilmek, {misplaced} yanlış renkte",
+    "tufted.yarn": "{tufted_yarn}, {tufted_yarn_mass}, {tufted_mass_per_area}",
+    "tufted.time": "{tufting_time}, {tufting_production}",
+    "tufted.cost": "{cost}; tezgâhta düğümlü {knotted}",
+    "tufted.no-price": "bilinmiyor",
+    "tufted.kilim-carpet": "{size}; {columns} gözlü {rows} sıra",
+    "tufted.kilim-slits": "en uzunu {slit_length}, {slits_joined} fazla uzun, {joins_woven} birleşme",
+    "tufted.kilim-bobbins": "sırada {mean_bobbins}, en çok {bobbins_per_row}",
+    "tufted.kilim-weft": "{weft_length}, {weft_mass}; çözgü {warp_mass}; {cloth_mass}",
 }
 
 _WORDS = """
@@ -36,6 +52,8 @@ work [h] = iş [h] | share of its shifts = vardiyalarının payı | pieces = par
 with tax = vergiyle | papers = belgeler | digest = özet | utilisation = kullanım | bottleneck = darboğaz
 state = durum | loom's clock = tezgâhın saati | repairs = onarımlar | journal = günlük | alarm = alarm
 verdict = karar | inputs = girdiler | reports = raporlar | proposed = önerilen | nearest wool = en yakın yün
+travel = boş yol | covered = kaplanan | slits = yarıklar | bobbins = masuralar | weft = atkı | time = süre
+strokes = vuruşlar
 mass = kütle | picture = resim | programme = program | motion = hareket | law = yasa | name = ad | kind = tür
 reading = okuma | paper = makale | claims = savlar | fitted = uydurulan
 binding constraints, in the order of the turn: = bağlayan kısıtlar, dönüş sırasıyla:

@@ -26,13 +26,9 @@ def figures(machine: TuftingMachine) -> tuple[Figure, ...]:
 
 
 def moving(machine: TuftingMachine) -> Animation:
-    """Needle drive and looper drive from the side, over a turn."""
+    """Needle drive and the drives of loopers and knives from the side, over a turn."""
     angle = frames()
     needle = evaluate(machine.needle.params, machine.needle.plan, angle, bodies=machine.needle.bodies)
-    moves = machine.looper_forces.moves
-    motion = moves.moved(angle, machine.params.needle.speed)
-    tip, shaft = (motion.point(moves.drive.bodies[2], name).position for name in (TIP, "P"))
-    hook = np.stack([shaft, tip - machine.looper.sense * 25 * mm, tip], 1)
     height = needle.height + machine.params.needle.shaft_height - machine.lowest
     readings = (
         Reading("needle over its lowest position", height, "mm"),
@@ -47,26 +43,29 @@ def moving(machine: TuftingMachine) -> Animation:
         period=turn / machine.params.needle.speed,
         readings=readings,
     )
-    below = [_drive_below(forces, angle, machine.params.needle.speed) for forces in machine.below]
+    back = {"looper": -machine.looper.sense * 25 * mm, "knife": -machine.params.looper.stem * (1 + 1j) / 2}
+    below = [
+        _drive_below(forces, angle, machine.params.needle.speed, back[forces.moves.drive.name])
+        for forces in machine.below
+    ]
     still = replace(
         whole.still,
         strokes=(*whole.still.strokes, *(stroke for one in below for stroke in one.still.strokes)),
         dots=(*whole.still.dots, *(dot for one in below for dot in one.still.dots)),
     )
-    strokes = (
-        *whole.strokes,
-        *(stroke for one in below for stroke in one.strokes),
-        MovingStroke(hook, "outline", "looper"),
-    )
+    strokes = (*whole.strokes, *(stroke for one in below for stroke in one.strokes))
     return replace(whole, still=still, strokes=strokes, dots=(*whole.dots, *(dot for one in below for dot in one.dots)))
 
 
-def _drive_below(forces: RockerForces, angle: FloatArray, speed: float) -> Animation:
-    """A drive of loopers or knives in motion."""
-    drive = forces.moves.drive
+def _drive_below(forces: RockerForces, angle: FloatArray, speed: float, back: complex) -> Animation:
+    """A drive of loopers or knives in motion; back: from the hook's point, or the knife's edge, to its stem [m]."""
+    drive, motion = forces.moves.drive, forces.moves.moved(angle, speed)
+    tip, shaft = (motion.point(drive.bodies[2], name).position for name in (TIP, "P"))
+    tool = MovingStroke(np.stack([shaft, tip + back, tip], 1), "outline", drive.name)
     drawing = Drawing(f"tufting-{drive.name}", "", (), unit="mm")
     names = {drive.bodies[2]: f"{drive.name} shaft", "A": "A'", "B": "B'"}
-    return animated(forces.moves.moved(angle, speed), angle, drawing, names=names)
+    made = animated(motion, angle, drawing, names=names)
+    return replace(made, strokes=(*made.strokes, tool))
 
 
 def _backing(machine: TuftingMachine) -> Stroke:

@@ -221,12 +221,19 @@ def knife_parts(params: TuftingMachineParams, drive: KnifeDrive, needles: int, l
     """
     knife, tip = params.knife, drive.moves.tip * cmath.exp(1j * drive.drive.middle)
     top, half = tip - LONG * params.looper.stem * (1 + 1j), knife.bar / 2
-    over = min((knife.bar + arm_radius(params.looper.shaft)) / abs(top), 1.0)
-    along = cmath.exp(1j * (cmath.phase(top) - math.asin(over)))
+    over, least = abs(top), 2 * (knife.bar + arm_radius(params.looper.shaft))
+    if over < least:
+        raise ParameterError(
+            f"the knives' bar is {format_quantity(over, 'mm')} from their shaft",
+            allowed=f"at least {format_quantity(least, 'mm')}, for its arm",
+            do="set a longer knife.distance, or a thinner looper.shaft",
+        )
+    along = cmath.exp(1j * (cmath.phase(top) - math.asin(least / 2 / over)))
     foot = half * along
     outline = polygon(np.array([tip - knife.width / 2, top - foot, top + foot, tip + knife.width / 2]))
     shape = Prism(Profile(outline), knife.thickness)
     part = Part(KNIFE, "knife", "laser-cut part", shape, STEEL, joins=(KNIFE_BAR,))
     pitch, square = params.width / params.drives, (top - 1j * foot, knife.bar, along)
-    made = rocker_parts(drive.drive, drive.moves.plan.mechanism, params.looper, pitch, square, like=like)
+    shift = knife.gap + (params.looper.thickness + knife.thickness) / 2
+    made = rocker_parts(drive.drive, drive.moves.plan.mechanism, params.looper, pitch, square, like=like, shift=shift)
     return KnifeParts(params, needles, made, part)

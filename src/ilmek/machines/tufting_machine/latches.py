@@ -51,13 +51,15 @@ class NeedleLatches:
     )
     latch_time = computed("ms", "time of a latch, closing or opening, the longer", lambda it: max(it.times))
     latch_power = computed(
-        "W", "power of all latches, held: of the needles of one colour", lambda it: it.row.holds_with(SPRING) * it.held
+        "W",
+        "power of all latches, held: of the needles of one colour",
+        lambda it: it.row.holds_with(SPRING) * it.lowered,
     )
     latch_tiers = computed("1", "tiers of latches on each side of the needle bar", lambda it: tiers(it.params, it.row))
     latch_shear = computed("MPa", "shear of a latch under the force of the backing", lambda it: it.load / it.row.area)
 
     @property
-    def held(self) -> float:
+    def lowered(self) -> float:
         """Needles that go down at a stroke, in the mean [1]."""
         return self.needles / self.params.pattern.colours
 
@@ -107,12 +109,12 @@ def latch_part(params: TuftingMachineParams) -> Part | None:
     if params.pattern.selection != BY_NEEDLE:
         return None
     row = solenoid_of(params)
-    bought = Bought(row.designation, row.mass, power=row.power, drives=1)
+    bought = Bought(row.designation, row.mass, power=row.power)
     held = "bonded on the needle bar"
     return bought_part(LATCH, "latch of a needle", "solenoid", bar(row.diameter, row.length), bought, fixing=held)
 
 
-def latch_places(params: TuftingMachineParams, heights: tuple[Placement, ...]) -> tuple[Placement, ...]:
+def latch_positions(params: TuftingMachineParams, heights: tuple[Placement, ...]) -> tuple[Placement, ...]:
     """Where the latches of needles are, on the faces of the bar whose upper side is at y = 0.
 
     heights  of the needles along z

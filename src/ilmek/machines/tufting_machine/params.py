@@ -214,7 +214,10 @@ class NeedleBarParams(Params):
     joint: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.1, doc="gap of its pieces, with a phase of the drives")
     bow: float = kind.length(0.1 * mm, at_least=1e-6, at_most=0.1, doc="allowed deflection of the needle bar")
     bolt: float = kind.length(
-        1.5 * mm, at_least=0.1 * mm, at_most=10 * mm, doc="way of a latch into its needle, where needles are selected"
+        1.5 * mm,
+        at_least=0.1 * mm,
+        at_most=10 * mm,
+        doc="travel of a latch into its needle, where needles are selected",
     )
     notch: float = kind.length(0.3 * mm, above=0.0, at_most=5 * mm, doc="play of a latch in the notch of its needle")
     latch_shear: float = kind.pressure(60 * MPa, at_least=0.1 * MPa, at_most=1e10, doc="allowed shear of a latch")

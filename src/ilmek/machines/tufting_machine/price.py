@@ -44,7 +44,7 @@ def _wired(cost: MachineCost, machine: TuftingMachine) -> MachineCost:
     pattern = machine.params.pattern
     scrolls = machine.feed.yarn_shafts if pattern.attachment == SCROLLS else 0
     latches = machine.carpet.needles if machine.latches else 0
-    axes = cost.axes - sum(one - math.ceil(one / pattern.module) for one in (scrolls, latches))
+    axes = cost.axes - scrolls + sum(math.ceil(one / pattern.module) for one in (scrolls, latches))
     return replace(cost, fitting=cost.fitting._replace(axes=axes))
 
 

@@ -28,7 +28,7 @@ from ilmek.units import mm
 NAME = "tufting-machine"
 STEEL = MATERIALS["heat-treatable steel"]
 
-BETWEEN = 1 * mm
+BETWEEN = 0.5 * mm
 """Gap of the shafts of neighbouring drives along the width; assumed by this project."""
 
 ARM_THICKNESS, ARMS = 12 * mm, {"looper": 0.3, "knife": 0.4}
@@ -56,7 +56,7 @@ class RockerParts:
     level    middle of the plates over the lowest [m]      half  from there to a bearing plate beside them [m]
     aside    their middle from that of the drive along z [m]      square  middle of the bar from the shaft, upright [m]
     spread   distance of an arm from the middle of the drive, over the pitch
-    along    direction of the bar's underside, upright
+    along    direction of the bar's underside, upright      shift  of the bar along z, with what it carries [m]
     """
 
     linkage: LinkageParts
@@ -71,13 +71,14 @@ class RockerParts:
     bar: Part
     square: complex
     along: complex
+    shift: float
 
     def carried(self, *others: Occurrence) -> tuple[Occurrence, ...]:
         """Shaft, arms, bar and others in the rocker's frame; those lie in the axes that are upright."""
         half, raised = (self.pitch - BETWEEN) / 2, self.upright.after(placement(z=self.level - self.aside))
         arms = tuple(placement(z=side * self.spread * self.pitch - ARM_THICKNESS / 2) for side in (-1, 1))
         turned = cmath.phase(self.along)
-        square = placement(self.square.real, self.square.imag, -half, about=(0.0, 0.0, 1.0), angle=turned)
+        square = placement(self.square.real, self.square.imag, self.shift - half, about=(0.0, 0.0, 1.0), angle=turned)
         own = (
             Occurrence(self.shaft, (placement(z=-half),)),
             Occurrence(self.arm, arms),
@@ -98,8 +99,10 @@ def rocker_parts(
     square: tuple[complex, float, complex],
     *,
     like: RockerParts | None = None,
+    shift: float = 0.0,
 ) -> RockerParts:
-    """The parts of a drive; like: of the one whose pins it shares, and beyond whose bearing plates its linkage is.
+    """The parts of a drive; like: of the one whose pins it shares, and beyond whose bearing plates its linkage is;
+    shift: of its bar along z [m].
 
     pitch  of the drives along the width [m]      square  middle of the bar from the shaft, its side [m], its direction
     """
@@ -131,6 +134,7 @@ def rocker_parts(
         Part(f"{NAME}/{name}-bar", f"{name} bar", "steel bar", Prism(Profile(rectangle(side, side)), long), STEEL),
         middle,
         along,
+        shift,
     )
 
 

@@ -29,7 +29,7 @@ from ilmek.machines.tufting_machine.frame import (
     roller_axes,
     scroll_height,
 )
-from ilmek.machines.tufting_machine.latches import latch_places
+from ilmek.machines.tufting_machine.latches import latch_positions
 from ilmek.machines.tufting_machine.layout import TuftingLayout, layout
 from ilmek.machines.tufting_machine.needle_parts import DOWN, NEEDLE_BAR, needle_heights, needle_parts
 from ilmek.machines.tufting_machine.params import SCROLLS
@@ -126,7 +126,7 @@ def _latches(machine: TuftingMachine, own: tuple[Placement, ...], low: float) ->
     part = needle_parts(machine.params).latch
     if part is not None:
         heights = tuple(placement(z=float(place.origin[2]) - low) for place in own)
-        yield Occurrence(part, latch_places(machine.params, heights))
+        yield Occurrence(part, latch_positions(machine.params, heights))
 
 
 def catalogue_length(part: Part) -> float:
