@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import SETTLED_OPTIONS
 from PIL import Image
 
 from ilmek.cli import main
@@ -22,7 +23,7 @@ from ilmek.machines.catalogue import MACHINES
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm")
-LOOM = (*SMALL, "--heads", "1")
+LOOM = (*SMALL, "--heads", "1", *SETTLED_OPTIONS)
 """One loom for all tests of `weave` that ask for no other: it is designed once."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
