@@ -206,22 +206,49 @@ def computed(unit: str, doc: str, function: Callable[[Any], Any] | None = None, 
     return Computed(function, declaration) if function else lambda method: Computed(method, declaration)
 
 
+class ComputedGroup(Generic[T]):
+    """A property that is a record with results of its own, made only where one of them is asked for."""
+
+    def __init__(self, function: Callable[[Any], T]) -> None:
+        self.function, self.__doc__ = function, function.__doc__
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> "ComputedGroup[T]": ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> T: ...
+    def __get__(self, instance: object | None, owner: type) -> "ComputedGroup[T] | T":
+        """The group of a record, the declaration of its class."""
+        return self if instance is None else self.function(instance)
+
+
 def declared_results(*classes: type) -> tuple[DeclaredResult, ...]:
     """The results declared by classes of records, in order, those of their groups included."""
     return tuple(declaration for cls in classes for declaration in _declarations(cls, ""))
 
 
 def _declarations(cls: type, prefix: str) -> Iterator[DeclaredResult]:
-    hints = typing.get_type_hints(cls)
     for attribute, declaration, inner in layout(cls):
         if declaration is not None:
             yield replace(declaration, name=prefix + declaration.name)
-            continue
-        hint = hints[attribute]
-        kinds = [kind for kind in typing.get_args(hint) if kind is not types.NoneType] or [hint]
-        for kind in kinds:
-            if is_dataclass(kind) and isinstance(kind, type):
+        else:
+            for kind in _kinds(cls, attribute):
                 yield from _declarations(kind, prefix + (inner or ""))
+
+
+def _kinds(cls: type, attribute: str) -> Iterator[type]:
+    """The classes of records that a group may be."""
+    made = vars(cls)[attribute]
+    hints = typing.get_type_hints(made.function if isinstance(made, ComputedGroup) else cls)
+    hint = hints["return" if isinstance(made, ComputedGroup) else attribute]
+    for kind in [kind for kind in typing.get_args(hint) if kind is not types.NoneType] or [hint]:
+        if is_dataclass(kind) and isinstance(kind, type):
+            yield kind
+
+
+@cache
+def group_names(cls: type, attribute: str) -> frozenset[str]:
+    """Names of the results of a group, without its prefix."""
+    return frozenset(one.name for one in declared_results(*_kinds(cls, attribute)))
 
 
 @cache
@@ -236,7 +263,11 @@ def layout(cls: Any) -> tuple[tuple[str, DeclaredResult | None, str | None], ...
             elif "group" in one.metadata:
                 found.append((one.name, None, one.metadata["group"]))
     for base in reversed(cls.__mro__):
-        found += [(name, one.declaration, None) for name, one in vars(base).items() if isinstance(one, Computed)]
+        for name, one in vars(base).items():
+            if isinstance(one, Computed):
+                found.append((name, one.declaration, None))
+            elif isinstance(one, ComputedGroup):
+                found.append((name, None, ""))
     return tuple(found)
 
 

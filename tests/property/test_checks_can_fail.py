@@ -94,6 +94,15 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"needle.crank": "20mm"},
         {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},
         {"pattern.colours": "5", "pattern.creel": "3", "pattern.attachment": "rollers"},
+        {"pile": "cut", "knife.under": "50mm", "knife.depth": "120mm", "gauge": "2.5mm"},
+        {"pile": "cut", "knife.under": "0.1mm", "knife.overlap": "15mm", "looper.transmission": "88.8deg"},
+        {"pile": "cut", "knife.force": "300N"},
+        {
+            "pattern.selection": "needles",
+            "needle_bar.notch": "0.001mm",
+            "needle_bar.height": "20mm",
+            "needle_bar.latch_shear": "0.2MPa",
+        },
     ),
     "warp-tension": (
         {"cloth.yarns.warp_diameter": "1.5mm", "cloth.tension": "20N"},

@@ -123,7 +123,8 @@ def plc_events(programme: LoomProgramme, script: Script, backs: Backs | None = N
             loom.command = PackCommand.STOP
             loom.until("StateCurrent", PackState.STOPPED)
             loom.take_out(rows)
-            loom.scan(RowsBack=rows, RowsBackRequest=True)
+            back = programme.setup.knots_before(loom.feeder.journal.row)
+            loom.scan(RowsBack=rows, RowsBackKnots=back, RowsBackRequest=True)
             loom.scan(RowsBackRequest=False)
             events.append(("back", loom.read("Now.Row"), 0, 0))
             before = (loom.read("Now.Row"), [0] * programme.setup.heads, 0, 0)

@@ -291,7 +291,7 @@ def test_rows_that_were_taken_out_are_woven_again(scans: int, rows: int, woven: 
     assert loom.row == rows + woven
     loom.power_cut(tied=True)
     loom.take_out(rows)
-    loom.scan(RowsBack=rows, RowsBackRequest=True)
+    loom.scan(RowsBack=rows, RowsBackKnots=12 * woven, RowsBackRequest=True)
     assert (loom.read("RowRequest"), loom.read("KnotsDone")) == (woven, 12 * woven)
     loom.scan(RowsBackRequest=False)
     loom.attend(5000)
@@ -307,8 +307,8 @@ def test_rows_are_not_taken_out_beyond_a_change_of_packages() -> None:
     loom.command = int(PackCommand.STOP)
     loom.until("StateCurrent", int(PackState.STOPPED))
     loom.host_silent = True  # its journal is not set back
-    for rows, request in ((2, 3), (-1, 3), (30_000, 3), (1, 2)):
-        loom.scan(RowsBack=rows, RowsBackRequest=True)
+    for rows, knots, request in ((2, 12, 3), (-1, 36, 3), (30_000, 0, 3), (1, 37, 3), (1, -1, 3), (1, 24, 2)):
+        loom.scan(RowsBack=rows, RowsBackKnots=knots, RowsBackRequest=True)
         loom.scan(RowsBackRequest=False)
         assert loom.read("RowRequest") == request
 

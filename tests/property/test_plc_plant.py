@@ -6,14 +6,20 @@ The loom is the twin of `ilmek run`, which refuses what would damage it and keep
 import numpy as np
 import pytest
 from plc_plant import PlantedProgram
+from shaped_orders import compiled
 from small_programme import small_programme
 
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.shape import ShapeParams, shaped
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
+from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.plc.feeder import READ, SILENCE, HostError
 from ilmek.jobs.plc.host_journal import HostJournal
 from ilmek.jobs.plc.plant import HONEST, DriveAct
 from ilmek.loom.control.alarms import ALARMS, ControlFault, JournalFault
 from ilmek.loom.control.ports import Fault
+from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.twin.comparison import compare
 from ilmek.loom.twin.state import Injected
 
@@ -25,6 +31,25 @@ def test_a_carpet_is_woven_as_its_chart_has_it(heads: int) -> None:
     assert loom.equal_to_the_chart()
     assert loom.read("KnotsDone") == 36
     assert loom.feeder.journal.row == 2
+
+
+@pytest.mark.parametrize(("shape", "ends"), [("round", 0.0), ("rectangle", 0.02), ("octagon", 0.02)])
+def test_a_round_carpet_and_kilim_ends_are_woven_as_their_chart_has_them(shape: str, ends: float) -> None:
+    """Also when the power fails: every knot once, in its colour, none outside the shape."""
+    random = np.random.default_rng(3)
+    knots = random.integers(0, 3, (4 if shape == "rectangle" else 8, 8))
+    chart = Chart(knots, default_yarns()[:3], CarpetSize(0.08, len(knots) / 100), "10x10/dm", "symmetric")
+    chart = shaped(chart, ShapeParams(shape=shape, kilim_ends=ends))
+    programme = CompiledProgramme(*compiled(random, chart))
+    loom = PlantedProgram(programme)
+    for _ in range(2):
+        for _ in range(150):
+            loom.scan()
+        loom.power_cut(int(random.integers(1500)))
+    loom.weave()
+    assert loom.equal_to_the_chart()
+    assert loom.read("KnotsDone") == chart.tally().knots < chart.rows * chart.columns
+    assert not loom.alarms
 
 
 def test_breaks_of_yarn_weft_and_warp_are_repaired_and_the_carpet_is_whole() -> None:

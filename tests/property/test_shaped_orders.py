@@ -5,22 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plain_proof import broken_rules
-from shaped_orders import compiled, random_chart
+from shaped_orders import compiled, random_chart, woven_by_twin
 
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.shape import SHAPES
-from ilmek.drivers.twin_port import TwinPort
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.io.programme_text import open_programme_text, write_programme_text
-from ilmek.loom.control.ports import Done
-from ilmek.loom.control.sequence import Sequence
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.operations import EMPTY, LoomProgramme
 from ilmek.loom.proof.prove import prove
 from ilmek.loom.twin.comparison import chart_digest, compare
-from ilmek.loom.twin.model import NO_FAULTS, plant_model
-from ilmek.loom.twin.state import first_state
-from ilmek.loom.twin.woven import Woven, woven_size
 
 
 def woven_by_hand(programme: LoomProgramme) -> tuple[np.ndarray, np.ndarray]:
@@ -40,23 +34,6 @@ def woven_by_hand(programme: LoomProgramme) -> tuple[np.ndarray, np.ndarray]:
                     yarns[number, row.columns[knot]] = loaded[head, row.tubes[knot]]
                 done[head] += int(row.counts[head, phase])
     return times, yarns
-
-
-def woven_by_twin(programme: LoomProgramme) -> Woven:
-    """The carpet that a loom without faults weaves, operation by operation of the sequence."""
-    setup = programme.setup
-    woven = Woven(setup, bytearray(woven_size(setup)))
-    woven.keep(first_state(plant_model(setup)))
-    port, sequence = TwinPort(setup, woven, rates=NO_FAULTS), Sequence(programme)
-    while not sequence.finished:
-        order = sequence.frontier()[0]
-        port.send((order,))
-        done = False
-        while not done:
-            done = any(isinstance(one, Done) and one.order == order for one in port.receive(0.0))
-        sequence.done(order)
-    assert sequence.knots == setup.knots
-    return woven
 
 
 @pytest.mark.matrix(light=5)

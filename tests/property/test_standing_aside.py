@@ -1,5 +1,6 @@
 """Heads without a knot in a phase are led out of the reach of the others: rule, proof, controller and twin agree."""
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
@@ -9,10 +10,13 @@ import pytest
 from fake_loom import FakeLoom, MemoryStore, run, step
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plc_loom import PlcLoom
 from shaped_orders import compiled, random_chart
 
 from ilmek.errors import LoomError
-from ilmek.io.plc.project import plc_project, require_all_knots
+from ilmek.io.plc.host_data import HostRow, checked
+from ilmek.jobs.plc.plant import HONEST, DriveAct
+from ilmek.loom.control.alarms import ALARMS, JournalFault
 from ilmek.loom.control.controller import Controller
 from ilmek.loom.control.exchange import Acknowledged, Commanded
 from ilmek.loom.control.opening import open_journal
@@ -21,7 +25,7 @@ from ilmek.loom.control.ports import Done, Fault, Order, SensorsChanged, StandAs
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.operations import LoomProgramme
 from ilmek.loom.proof.prove import prove
-from ilmek.loom.standing import standing
+from ilmek.loom.standing import asides, standing
 from ilmek.loom.twin.model import plant_model
 from ilmek.loom.twin.state import first_state
 from ilmek.loom.twin.step import step as plant_step
@@ -245,10 +249,72 @@ def test_the_twin_reports_a_move_and_refuses_one_beyond_the_row() -> None:
         plant_step(plant, state, (replace(order, column=setup.columns),), 0)
 
 
-def test_a_plc_refuses_a_carpet_with_cells_without_a_knot() -> None:
-    programme = first_shaped()
-    for heads in (1, programme.setup.heads):
-        with pytest.raises(LoomError, match="cells without a knot"):
-            require_all_knots(replace(programme.setup, heads=heads))
-    with pytest.raises(LoomError, match="ilmek run"):
-        plc_project(programme)
+@pytest.mark.matrix(light=2)
+@pytest.mark.parametrize("seed", [23, 30, 49, 14, 38, 47, 77, 79, 81, 97, 107, 116])
+def test_the_program_of_a_plc_ties_what_the_chart_has_and_no_heads_meet(seed: int) -> None:
+    """Round carpets, ovals, octagons and stairs with kilim ends, bands and single cells without a knot."""
+    programme = shaped_programme(seed)
+    assert programme is not None
+    loom, sent, tied = PlcLoom(programme), list[Order](), Counter[tuple[int, int]]()
+
+    def noted(station: int) -> DriveAct:
+        if station < loom.heads:
+            row, column, order = loom.row, loom.columns[station], (loom.row, station)
+            if loom.aside[station]:
+                moves = asides(programme.operations(row), programme.setup.columns)
+                phase = next(number for number, move in enumerate(moves) if move.get(station) == column)
+                sent.append(StandAside(station, row, phase, column))
+            else:
+                sent.append(Tie(station, row, tied[order], column, loom.tubes[station]))
+                tied[order] += 1
+        return HONEST
+
+    loom.next_act = noted
+    loom.attend(60_000)
+    assert loom.woven()
+    assert loom.alarms == []
+    assert loom.read("KnotsDone") == programme.setup.knots
+    assert loom.moves
+    assert collisions(programme, sent, moves=True) == 0
+
+
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("seed", range(6))
+def test_a_plc_leads_heads_aside_anew_after_power_cuts_faults_and_rows_back(seed: int) -> None:
+    """Drives that fail, power that fails, rows that were taken out: every knot once, in its colour."""
+    random = np.random.default_rng(seed)
+    programme = shaped_programme(49)
+    assert programme is not None
+    loom = PlcLoom(programme)
+    missed = DriveAct(tied=False, fault=ALARMS[Fault.MISSED_GRIP].number)
+    loom.next_act = lambda _: missed if random.random() < 0.1 else HONEST
+    while loom.row < 3 and not loom.read("CarpetDone"):
+        loom.attend(int(random.integers(20, 90)))
+        loom.power_cut(tied=bool(random.integers(2)))
+    loom.next_act = lambda _: HONEST
+    while loom.read("StateCurrent") != PackState.EXECUTE:
+        loom.attend(1)
+    loom.command = int(PackCommand.STOP)
+    loom.until("StateCurrent", int(PackState.STOPPED))
+    loom.take_out(2)
+    first = loom.programme.setup.knots_before(loom.row)
+    loom.scan(RowsBack=2, RowsBackKnots=first, RowsBackRequest=True)
+    assert loom.read("KnotsDone") == first
+    loom.scan(RowsBackRequest=False)
+    loom.attend(60_000)
+    assert loom.woven()
+
+
+def test_a_row_that_leads_a_head_aside_where_it_ties_is_not_woven() -> None:
+    programme = shaped_programme(30)
+    assert programme is not None
+    loom = PlcLoom(programme)
+
+    def disturbed(row: HostRow) -> HostRow:
+        aside = [[3 if ends[0] else moves[0], *moves[1:]] for ends, moves in zip(row.limits, row.aside, strict=True)]
+        return checked(replace(row, aside=aside), programme.digest)
+
+    loom.disturb_row = disturbed
+    loom.attend(300)
+    assert loom.alarms[0] == ALARMS[JournalFault.ROW_DAMAGED].number
+    assert not loom.carpet

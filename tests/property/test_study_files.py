@@ -170,6 +170,44 @@ def test_a_cluster_that_goes_away_is_an_error_that_keeps_what_is_there(
         assert len(file) == 256
 
 
+def test_a_cluster_that_computes_twice_and_in_another_order_gives_the_same_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A scheduler asks again where a worker was lost, and what it hears first may be the later block."""
+    asked: list[Callable[[], None]] = []
+
+    class Asked(Future[list[Outcome]]):
+        def result(self, timeout: float | None = None) -> list[Outcome]:
+            while asked:
+                asked.pop()()
+            return super().result(timeout)
+
+    class Twice(nullcontext[None]):
+        def __enter__(self) -> "Twice":  # type: ignore[override]
+            return self
+
+        def get_executor(self, *, pure: bool) -> "Twice":
+            assert not pure
+            return self
+
+        def submit(self, function: Callable[..., list[Outcome]], question: Question, designs: list[Design]) -> Asked:
+            answer = Asked()
+            function(question, designs)
+            asked.append(lambda: answer.set_result(function(question, designs)))
+            return answer
+
+    monkeypatch.setattr("ilmek.studies.workers.cluster_client", lambda _: Twice())
+    points = sampled(VARIABLES[:1], "sobol", 300, 3)
+    for name, cluster in (("here", None), ("there", "tcp://there")):
+        with (
+            StudyFile(tmp_path / name, {}, ["x"], ["gap"]) as file,
+            Workers(Question(FunctionTarget("stack"), ("gap",)), cluster=cluster) as running,
+        ):
+            DesignRecorder(file, VARIABLES[:1], running, 300)(points)
+            assert len(file) == 300
+    assert (tmp_path / "here").read_bytes() == (tmp_path / "there").read_bytes()
+
+
 def test_a_full_disc_is_an_error_that_keeps_what_is_there(tmp_path: Path) -> None:
     path = tmp_path / "s.sqlite"
     carried_out(path, 10)

@@ -20,11 +20,11 @@ from ilmek.jobs.plc.plant import HONEST
 from ilmek.jobs.plc.plant import DriveAct as Act
 from ilmek.loom.control.interlocks import LoomAxis
 from ilmek.loom.control.packml import PackCommand, PackState
-from ilmek.loom.operations import LoomProgramme, RowEnd
+from ilmek.loom.operations import EMPTY, LoomProgramme, RowEnd
+from ilmek.weaving.tension import usual_tension
 
 SENSORS: dict[str, Any] = {
-    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0,
-    "BeaterBack": True, "ShedClosed": True,
+    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "BeaterBack": True, "ShedClosed": True,
 }  # fmt: skip
 AWAY = {
     RowEnd.STRAIGHT_WEFT: "ShedClosed",
@@ -99,6 +99,7 @@ class PlcLoom:
 
     heads_clear  what the sensor states; None: the heads are clear while none ties
     carpet  (row, column) -> the tubes from which knots were tied there      ends  row ends in their order
+    moves   (row, head, column): where heads were led aside
     home_act    what the loom does with its next order to home an axis
     next_act    what a station does with its next order       disturb_row, disturb_recipe  what a bad host gives instead
     """
@@ -110,8 +111,10 @@ class PlcLoom:
         self.loom = self.machine.instance("Loom")
         self.carpet: dict[tuple[int, int], list[int]] = {}
         self.ends: list[tuple[int, int]] = []
+        self.moves: list[tuple[int, int, int]] = []
         self.changes: list[int] = []
-        self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
+        tension = usual_tension(programme.setup.warp_pitch)
+        self.sensors = {**SENSORS, "WarpTension": tension, "GrippersOpen": [True] * self.heads}
         self.scans = self.row = self.command = 0
         self.heads_clear: bool | None = None
         self.alarms: list[int] = []
@@ -132,6 +135,7 @@ class PlcLoom:
         """What the stations see: the outputs at the end of a scan; one that was cut off has none."""
         self.orders = [*self.read("TieStart"), self.read("EndStart")]
         self.columns, self.tubes, self.end_code = self.read("TieColumn"), self.read("TieTube"), self.read("EndCode")
+        self.aside = self.read("TieAside")
 
     def _head(self, head: int) -> Station:
         return Station(lambda: 4 + head, lambda: self.next_act(head), lambda: self._tie(head))
@@ -172,7 +176,7 @@ class PlcLoom:
                 self.write(values)
 
     def host_row(self, number: int) -> HostRow:
-        return host_row(self.programme.operations(number), self.programme.digest)
+        return host_row(self.programme, number)
 
     def write(self, values: PlcValues) -> None:
         for name, value in values.items():
@@ -267,7 +271,10 @@ class PlcLoom:
         self._latch()
 
     def _tie(self, head: int) -> None:
-        self.carpet.setdefault((self.row, self.columns[head]), []).append(self.tubes[head])
+        if self.aside[head]:
+            self.moves.append((self.row, head, self.columns[head]))
+        else:
+            self.carpet.setdefault((self.row, self.columns[head]), []).append(self.tubes[head])
 
     def _end(self) -> None:
         """An operation after the knots is in the carpet, or an axis is at home."""
@@ -303,11 +310,15 @@ class PlcLoom:
             self.sensors[AWAY[RowEnd(self.end_code)]] = False
 
     def woven(self) -> bool:
-        """Whether every knot is in the carpet once, in its colour, and every operation after the knots once."""
-        setup = self.programme.setup
-        ends = [(row, int(end)) for row in range(setup.rows) for end in RowEnd]
-        return self.ends == ends and self.carpet == {
-            (row, column): [yarn]
-            for row in range(setup.rows)
-            for column, yarn in enumerate(self.programme.chart_row(row).tolist())
+        """Whether every knot of the chart is in the carpet once, from its tube, and every operation after the knots."""
+        rows = range(self.programme.setup.rows)
+        ends = [(row, int(end)) for row in rows for end in RowEnd]
+        lines = [self.programme.chart_row(row).tolist() for row in rows]
+        knots = {(row, column) for row, line in enumerate(lines) for column, yarn in enumerate(line) if yarn != EMPTY}
+        made = [self.programme.operations(row) for row in rows]
+        tubes = {
+            (row.number, column): [tube]
+            for row in made
+            for column, tube in zip(row.columns.tolist(), row.tubes.tolist(), strict=True)
         }
+        return self.ends == ends and self.carpet == tubes and set(tubes) == knots

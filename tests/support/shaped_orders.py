@@ -7,12 +7,18 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.shape import ShapeParams, shaped
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.drivers.twin_port import TwinPort
 from ilmek.io.yarn_file import default_yarns
-from ilmek.loom.operations import LoomSetup, OperationTimes
+from ilmek.loom.control.ports import Done
+from ilmek.loom.control.sequence import Sequence
+from ilmek.loom.operations import LoomProgramme, LoomSetup, OperationTimes
 from ilmek.loom.programme import Programme, make_programme
 from ilmek.loom.sharing import share
 from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import YarnSupply, most_colours
+from ilmek.loom.twin.model import NO_FAULTS, plant_model
+from ilmek.loom.twin.state import first_state
+from ilmek.loom.twin.woven import Woven, woven_size
 
 
 def random_chart(rng: np.random.Generator, shape: str) -> Chart:
@@ -64,3 +70,20 @@ def compiled(rng: np.random.Generator, chart: Chart) -> tuple[LoomSetup, Program
         row_knots=None if chart.cells is None else tuple(in_rows.tolist()),
     )
     return setup, programme
+
+
+def woven_by_twin(programme: LoomProgramme) -> Woven:
+    """The carpet that a loom without faults weaves, operation by operation of the sequence."""
+    setup = programme.setup
+    woven = Woven(setup, bytearray(woven_size(setup)))
+    woven.keep(first_state(plant_model(setup)))
+    port, sequence = TwinPort(setup, woven, rates=NO_FAULTS), Sequence(programme)
+    while not sequence.finished:
+        order = sequence.frontier()[0]
+        port.send((order,))
+        done = False
+        while not done:
+            done = any(isinstance(one, Done) and one.order == order for one in port.receive(0.0))
+        sequence.done(order)
+    assert sequence.knots == setup.knots
+    return woven

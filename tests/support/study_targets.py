@@ -35,7 +35,7 @@ class FunctionTarget:
         """None: each design is evaluated alone."""
         return {}
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], _only: object = None) -> Numbers:
         """Results f, g, and a check."""
         x = _numbers(values)
         return globals()[f"{self.function}_of"](x)  # type: ignore[no-any-return]

@@ -112,6 +112,8 @@ def test_the_table_is_the_engine_to_rounding() -> None:
     rows = np.array([table(float(q)) for q in at])
     assert np.max(np.abs(rows[:, 0] - found.inertia)) < 1e-13 * np.max(found.inertia)
     assert np.max(np.abs(rows[:, 1] - found.weight)) < 1e-13 * np.max(np.abs(found.weight))
+    effort = reduced.torque(at, 20.0)
+    assert np.max(np.abs(table.torque(at, 20.0) - effort)) < 1e-12 * np.max(np.abs(effort))
 
 
 def test_a_run_on_the_table_is_the_run_on_the_engine(monkeypatch: pytest.MonkeyPatch) -> None:

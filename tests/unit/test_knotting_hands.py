@@ -12,12 +12,14 @@ from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_four_bar.hands import HANDS, HandsTask, TyingHands, design
 from ilmek.machines.knotting_four_bar.hands.batch import moved
+from ilmek.machines.knotting_four_bar.hands.beside import heads_for, kinds
 from ilmek.machines.knotting_four_bar.hands.design import proof
 from ilmek.machines.knotting_four_bar.hands.hand import TyingHand
 from ilmek.machines.knotting_four_bar.hands.parts import HandParts, hands_tree
 from ilmek.machines.knotting_four_bar.hands.section import NEIGHBOURS, InclinedSection, least_inclination
 from ilmek.part.contacts import contacts
 from ilmek.report import Animation
+from ilmek.sentences.nouns_turkish import named
 from ilmek.units import deg, mm
 
 TASK = {"knot": "turkish", "cloth.warp_pitch": "4mm", "inclination": "80deg", "tried": "1000"}
@@ -130,6 +132,12 @@ def test_nothing_is_through_another_and_all_parts_are_held() -> None:
     assert len(found.groups) == 1
 
 
+def test_every_part_has_a_turkish_noun() -> None:
+    bodies = hands_tree(parts_of(made()), made().servo).bodies
+    titles = {str(one.part.title) for body in bodies for one in body.occurrences}
+    assert [title for title in sorted(titles) if named(title) == title] == []
+
+
 def test_the_animation_ends_with_the_tied_yarn() -> None:
     moving = next(figure for figure in HANDS.figures(made()) if isinstance(figure, Animation))
     yarn = next(stroke for stroke in moving.strokes if stroke.role == "yarn").points
@@ -176,3 +184,24 @@ def test_the_lightest_servo_bears_its_load() -> None:
     lighter = [other for other in MICRO_SERVOS if other.mass < row.mass]
     assert not any(other.bears(torque, speed) for other in lighter)
     assert lightest_servo(torque, speed, 4.0, row.mass) is None  # beyond a servo's travel
+
+
+def test_hands_beside_cams_and_arms_of_a_head() -> None:
+    """Mass by the parts of the tree; with the time of the arms the head with hands ties as quickly as theirs."""
+    hands = made()
+    cams, arms, own = HANDS.tables(hands)[-1].rows
+    assert [row[:2] for row in (cams, arms, own)] == [
+        ("cams", "symmetric"),
+        ("arms", "symmetric"),
+        ("hands", "turkish"),
+    ]
+    bodies = hands_tree(parts_of(hands), hands.servo).bodies
+    mass = sum(one.part.mass * len(one.positions) * len(body.positions) for body in bodies for one in body.occurrences)
+    assert own[3] == pytest.approx(mass)
+    assert own[3] < arms[3] < cams[3]
+    assert own[4] < cams[4] < arms[4]
+    assert cams[2] < arms[2] < own[2]
+    inside = heads_for(hands.params)[1].weaver
+    assert inside is not None
+    assert kinds(hands.params, inside.params.arms.time, ())[2].cycle == pytest.approx(arms[2])
+    assert own[2] - arms[2] > 0.5 * (0.8 - inside.params.arms.time)

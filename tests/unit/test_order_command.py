@@ -34,6 +34,7 @@ from ilmek.io.carpet_record import read_record, record_faults
 from ilmek.io.chart.png import read_chart_png
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.ordering.progress import woven_rows
+from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.viz.room import HIGH, WIDE, draw_room
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -284,6 +285,49 @@ def test_construction_is_that_of_closed_forms() -> None:
     rows = np.array(woven_in_rows(made))
     assert rows.sum(axis=0).tolist() == [100**2 - 200, 2 * 10 * 100 + 200]
     assert rows[:10, 1].tolist() == [100] * 10
+
+
+def test_carving_and_silk_are_in_the_price_and_in_the_papers(tmp_path: Path) -> None:
+    """A field in two halves: 40 cm of lines; the silk has the mass of its knots by its own count."""
+    Image.fromarray(np.repeat([[[158, 43, 37], [235, 220, 195]]], 2, axis=0).astype(np.uint8)).resize(
+        (40, 40), Image.Resampling.NEAREST
+    ).save(tmp_path / "halves.png")
+    (tmp_path / "yarns.csv").write_text(
+        "name,srgb,nm,ply,material\nwool red,#9e2b25,5,2,wool\nsilk ivory,#ebdcc3,10,2,silk\n", encoding="utf-8"
+    )
+    order = """customer = "N-7"
+start = 2026-12-01
+currency = "EUR"
+language = "%s"
+[price]
+finishing = "12 EUR"
+%s
+[[order]]
+name = "Halves"
+picture = "halves.png"
+size = "40x40cm"
+quality = "10x10/dm"
+yarns = "yarns.csv"
+carve = "all"
+due = 2027-03-01
+"""
+    costs = []
+    for language, price in (("en", ""), ("tr", 'carving = "5 EUR"')):
+        (tmp_path / "order.toml").write_text(order % (language, price), encoding="utf-8")
+        done = run("order", tmp_path / "order.toml", "--out", tmp_path / language, "--json", "-")
+        assert done.exit_code == 0, done.output
+        (one,) = json.loads(done.output)["results"]["carpets"]
+        costs.append(one["costs"]["finishing"])
+        assert one["carving"]["length"] == pytest.approx(0.4, rel=0.07), one["carving"]
+        assert [part["material"] for part in one["pile_fibres"]] == ["wool", "silk"]
+        assert one["pile_fibres"][0]["share"] == pytest.approx(2 / 3, abs=0.015)  # thicker yarn goes a longer way
+    rates = CostRates()
+    assert costs[0] == pytest.approx(12 * 0.16 + rates.wage * one["carving"]["length"] / rates.carving_speed, abs=0.006)
+    assert costs[1] == pytest.approx(12 * 0.16 + 5 * one["carving"]["length"], abs=0.006)
+    quotation = text_of(tmp_path / "en" / "offer" / "quotation.pdf")
+    assert "carved lines" in quotation
+    assert "wool 68 %, silk 32 %" in quotation
+    assert "oyulmuş çizgiler" in text_of(tmp_path / "tr" / "offer" / "quotation.pdf")
 
 
 def test_a_colourway_exchanges_yarns_all_at_once() -> None:

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
-from plc_loom import HONEST, SENSORS, Act, PlcLoom
+from plc_loom import HONEST, Act, PlcLoom
 from small_programme import small_programme
 from structured_text import Machine
 
@@ -36,6 +36,7 @@ from ilmek.loom.operations import RowEnd
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.timing.track import sample
 from ilmek.units import turn
+from ilmek.weaving.tension import usual_tension
 
 HEADS = 2
 LIMITS = usual_limits(0.002)
@@ -206,7 +207,7 @@ def test_low_tension_suspends_and_weaving_goes_on_by_itself() -> None:
         loom.scan()
     assert loom.read("KnotsDone") == knots
     assert loom.read("Alarm") == ALARMS["warp tension low"].number
-    loom.sensors["WarpTension"] = SENSORS["WarpTension"]
+    loom.sensors["WarpTension"] = usual_tension(loom.programme.setup.warp_pitch)
     loom.until("StateCurrent", int(PackState.COMPLETE))
 
 

@@ -8,7 +8,9 @@ from click.testing import CliRunner, Result
 from processes import ended, ilmek
 from study_targets import FOUR_BAR
 
+from ilmek import read_mechanism, study
 from ilmek.cli import main
+from ilmek.errors import MechanismError
 from ilmek.units import deg
 
 SWING = ("--vary", "swing=28deg..32deg")
@@ -95,6 +97,17 @@ def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
     assert json.loads(design.stdout)["results"]["drive_torque_max"] == found["best"]["results"]["drive_torque_max"]
 
 
+def test_the_table_as_parquet_is_that_of_csv(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    csv, file = tmp_path / "s.csv", tmp_path / "s.parquet"
+    words = ("--vary", "law=cycloidal, modified-sine", "--record", "prime_radius", "--csv", str(csv))
+    assert CliRunner().invoke(main, ["study", "cam", *words, "--parquet", str(file)]).exit_code in (0, 3)
+    found = parquet.read_table(file).to_pydict()
+    heads, *rows = (line.split(",") for line in csv.read_text().splitlines())
+    assert list(found) == heads
+    assert [[str(cell) for cell in row] for row in zip(*found.values(), strict=True)] == rows
+
+
 def test_listed_values_are_taken_once_each_and_stand_in_the_table() -> None:
     words = ("--vary", "law=cycloidal, modified-sine", "--vary", "lift=20mm, 30mm", "--record", "prime_radius")
     found = CliRunner().invoke(main, ["study", "cam", *words, "--csv", "-"])
@@ -148,17 +161,27 @@ def test_a_mechanism_varies_by_its_values() -> None:
     assert json.loads(one.stdout)["results"]["drive_torque_rms"] == best["results"]["drive_torque_rms"]
 
 
+def test_a_mechanism_that_was_read_is_studied_as_its_file() -> None:
+    path, vary = "examples/slider_crank_press.toml", {"stroke": "55mm..65mm"}
+    more = {"goals": ["drive_torque_rms"], "fixed": {"rod": "130mm"}, "samples": 3}
+    read = study(read_mechanism(path), vary, **more)
+    assert read.digest == study(path, vary, **more).digest
+    assert read.command(0).startswith(f"ilmek mechanism {path} --set rod=130mm --set stroke=")
+    with pytest.raises(MechanismError, match="did you mean 'rod'"):
+        study(read_mechanism(path), vary, goals=["drive_torque_rms"], fixed={"rods": "1mm"})
+
+
 def test_tolerances_of_a_wanted_yield_are_found_and_proven(tmp_path: Path) -> None:
     """The crank's tolerance costs twice and makes the torque spread: it alone is tightened."""
     file = tmp_path / "four_bar.toml"
     file.write_text(FOUR_BAR)
-    study = tmp_path / "study.toml"
-    study.write_text(
+    order = tmp_path / "study.toml"
+    order.write_text(
         'target = "four_bar.toml"\nmethod = "tolerance"\nsamples = 16\nyield = "95%"\n'
         'hold = ["drive_torque_max <= 0.3925 N*m"]\ncorrelate = ["a, b = 0.3"]\n'
         '[vary]\na = "60mm+-0.5mm"\nb = "200mm+-1mm"\n[cost]\na = 2\n'
     )
-    found = json.loads(CliRunner().invoke(main, ["study", str(study), "--json", "-"]).stdout)["results"]["allocation"]
+    found = json.loads(CliRunner().invoke(main, ["study", str(order), "--json", "-"]).stdout)["results"]["allocation"]
     assert found["factors"]["a"] < 1 < found["factors"]["b"]
     assert found["expected"] == pytest.approx(0.95, abs=1e-6)
     assert found["found"]["high"] >= 0.95

@@ -18,7 +18,7 @@ from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis, ana
 from ilmek.machines.tension_compensator.design import equilibrium_tension, stiffness, swing
 from ilmek.machines.tension_compensator.geometry import WarpPath
 from ilmek.machines.tension_compensator.linkage import spring_forces
-from ilmek.machines.tension_compensator.members import STEEL, bar_checks
+from ilmek.machines.tension_compensator.members import SADDLE, STEEL, bar_checks, roller_for, roller_pin_check
 from ilmek.machines.tension_compensator.tree import lever_motion, tree
 from ilmek.part.clearances import approaches
 from ilmek.part.contacts import contacts
@@ -288,3 +288,14 @@ def test_no_pin_nor_roller_bears_more_than_it_may() -> None:
     assert moment / (math.pi / 32 * members.spring_pin**3) < 750e6 / made.params.safety
     force = made.loads.line * made.params.cloth.width / made.params.levers / math.sqrt(2)
     assert members.roller.static > 1.25 * force
+
+
+@pytest.mark.parametrize("line", [1e3, 3e3, 6e3, 1e4])
+def test_a_roller_is_one_whose_pin_bears_it(line: float) -> None:
+    """The moment of half a bar's load at the middle of its roller, 1 mm beside the saddle, by hand."""
+    params = usual().params
+    roller = roller_for(params, line)
+    force = line * params.cloth.width / params.levers / (2 * math.cos(SADDLE))
+    stress = 32 * force * (1 * mm + roller.width / 2) / (math.pi * roller.bore**3)
+    assert stress <= params.strength / params.safety
+    assert roller_pin_check(params, roller, line).value == pytest.approx(stress, rel=1e-12)

@@ -13,6 +13,8 @@ from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting_machine import TuftingMachine
 from ilmek.machines.tufting_machine.price import tufting_price
+from ilmek.machines.tufting_machine.rocker_drive import RockerDrive
+from ilmek.sentences.nouns_turkish import named
 from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
@@ -142,13 +144,13 @@ def test_the_loop_is_lost_at_the_end_of_its_window(margin: float) -> None:
 def test_the_linkage_moves_the_hook_as_its_synthesis_says(pile: str) -> None:
     machine = made(pile=pile)
     forces, drive = machine.looper_forces, machine.looper
-    motion, needle = forces.motion, machine.params.needle
+    motion, angle, needle = forces.moves.motion, forces.moves.angle, machine.params.needle
     tip = motion.point("looper rocker", "tip").position
     line = needle.shaft_distance + needle.needle_distance
-    assert np.abs(drive.sense * (tip.real - line) - drive.ahead(forces.angle)).max() < 1e-12
-    assert drive.ahead(forces.angle).max() == pytest.approx(machine.params.looper.reach, abs=1e-6)
-    assert drive.ahead(forces.angle).min() == pytest.approx(-machine.params.looper.retreat, abs=1e-6)
-    at_line = np.interp(machine.loop.catch, forces.angle, tip.imag)
+    assert np.abs(drive.sense * (tip.real - line) - drive.ahead(angle)).max() < 1e-12
+    assert drive.ahead(angle).max() == pytest.approx(machine.params.looper.reach, abs=1e-6)
+    assert drive.ahead(angle).min() == pytest.approx(-machine.params.looper.retreat, abs=1e-6)
+    at_line = np.interp(machine.loop.catch, angle, tip.imag)
     assert at_line - machine.lowest == pytest.approx(machine.loop.geometry.hook, abs=1e-6)
     assert np.abs(drive.ahead(np.array(drive.passing))).max() < 1e-9
     assert forces.forces.power_error < 1e-9
@@ -231,7 +233,8 @@ def test_what_the_looper_moves_weighs_what_its_forces_count() -> None:
     mass = sum(len(one.positions) * one.part.mass for one in body.occurrences)
     parts = machine.looper_forces.parts
     counted = sum(len(one.positions) * one.part.mass for one in parts.carried(0))
-    rest = (parts.linkage.plates["looper rocker"].mass, *(pin.mass for pin in parts.linkage.pins.values()))
+    linkage = parts.rocker.linkage
+    rest = (linkage.plates["looper rocker"].mass, *(pin.mass for pin in linkage.pins.values()))
     assert mass - counted <= sum(rest) + 1e-9
     assert mass - counted >= rest[0] - 1e-9
 
@@ -278,6 +281,23 @@ def test_a_scroll_for_each_needle_stands_in_tiers_and_has_its_motor() -> None:
     assert found["yarn_speed_max"] == pytest.approx(2 * whole * mm * 160 / 60, rel=1e-9)
 
 
+def test_latches_have_the_time_near_the_highest_position_and_hang_on_their_bar() -> None:
+    """The time by the paper's circles; the mass of a latch for each needle; two sides and tiers without a clash."""
+    chosen = {**SCROLLED, "pattern.selection": "needles"}
+    machine, plain = made(**chosen), made(**SCROLLED)
+    assert machine.latches is not None
+    assert plain.latches is None
+    heights = np.array([needle_height(angle) for angle in np.linspace(0, turn, 7200, endpoint=False)])
+    near = np.mean(heights.max() - heights <= 0.3 * mm) * 60 / 160
+    assert machine.latches.window == pytest.approx(near, abs=2e-4)
+    assert machine.needle_bar.mass - plain.needle_bar.mass == pytest.approx(377 * 0.009)  # a solenoid of 12 x 12 mm
+    report = MACHINE.report(machine, illustrated=False)
+    assert not report.failed
+    assert numbers(**chosen)["tufting-machine/latch"] == 377
+    quick = made(**chosen, **{"needle_bar.notch": "0.001mm"})
+    assert [check.ok for check in quick.latches.checks] == [False, True, True]
+
+
 def test_groups_of_needles_have_a_roller_each() -> None:
     settings = {"width": "1.2m", "drives": "3", "pattern.attachment": "groups", "pattern.groups": "3"}
     machine = made(**settings, low_height="5mm")
@@ -306,3 +326,79 @@ def test_half_gauges_have_twice_the_loopers() -> None:
     assert numbers(**coarse, shift="0.5")["tufting-machine/looper"] == 299  # none beyond the last end
     half = MACHINE.report(made(**coarse, shift="0.5"), illustrated=False)
     assert not half.failed
+
+
+def circles(pivot: complex, pin: complex, coupler: float, rocker: float) -> complex:
+    """The joint of coupler and rocker on the clockwise side of pin -> pivot: two circles."""
+    away = abs(pivot - pin)
+    along = (away**2 + coupler**2 - rocker**2) / (2 * away)
+    return pin + (pivot - pin) / away * (along - 1j * math.sqrt(coupler**2 - along**2))
+
+
+def test_a_knife_passes_its_hook_as_circles_and_corners_put_it() -> None:
+    """Both linkages by circles from their lengths and phases; the hook's under edge by its corners turned."""
+    machine = made(pile="cut")
+    knife, looper = machine.knife, machine.looper
+    assert knife is not None
+    params, angles = machine.params, np.linspace(0.0, turn, 361)
+
+    def rockers(drive: RockerDrive, shaft: complex) -> np.ndarray:
+        at, pivot, found = knife.hooks.crank_shaft, shaft, []
+        for angle in angles:
+            pin = at + drive.lengths["crank"] * np.exp(1j * (angle + drive.phase))
+            found.append(np.angle(circles(pivot, pin, drive.lengths["coupler"], drive.lengths["rocker"]) - pivot))
+        return np.unwrap(found)
+
+    hooks = rockers(looper.rocker, knife.hooks.shaft)
+    turned = hooks - (hooks.max() + hooks.min()) / 2
+    swung = rockers(knife.drive, knife.moves.shaft)
+    edge = knife.moves.shaft + knife.moves.tip * np.exp(1j * swung)
+    low, back = params.looper.arm - params.looper.height, params.looper.reach + params.looper.retreat + 9 * mm
+    corners = [knife.hooks.shaft + (x + 1j * low) * np.exp(1j * turned) for x in (-60 * mm, 60 * mm)]
+    under = [np.interp(at.real, [a.real, b.real], [a.imag, b.imag]) for at, a, b in zip(edge, *corners, strict=True)]
+    over = edge.imag - np.array(under)
+    assert np.abs(over - knife.over).max() < 1e-8
+    point = [knife.hooks.shaft + (x + 1j * params.looper.arm) * np.exp(1j * turned) for x in (0.0, back)]
+    assert np.all(edge.real - point[0].real > params.knife.width / 2)
+    assert np.all(point[1].real - edge.real > params.knife.width / 2)
+    rising, yarn = np.gradient(over) > 0, machine.carpet.yarn_diameter
+    cut = angles[rising & (over > -yarn) & (over < 0)]
+    assert knife.cut_angle == pytest.approx([cut[0], cut[-1]], abs=1.5 * deg)
+
+
+def test_knives_bear_the_cut_that_their_motor_gives() -> None:
+    """The work of a cut is its force over the way that the edge takes in the yarn: half a newton more, as much more."""
+    works = []
+    for force in ("0N", "4N"):
+        machine = made(pile="cut", **{"knife.force": force})
+        forces = machine.knife_forces
+        assert forces is not None
+        works.append(float(np.trapezoid(forces.torque, forces.moves.angle)))
+    knife = machine.knife
+    assert knife is not None
+    way = np.abs(np.diff(knife.edge[np.flatnonzero(knife.cutting)])).sum()
+    hooks = machine.carpet.needles / machine.params.drives
+    assert works[0] == pytest.approx(0, abs=1e-4)
+    assert works[1] == pytest.approx(4 * hooks * way, rel=0.06)  # a sample on each end
+    assert made().knife is None
+
+
+@pytest.mark.parametrize(
+    ("settings", "check"),
+    [
+        ({"knife.thickness": "1.5mm"}, "needle, hook and knife beside each other"),
+        ({"knife.under": "50mm", "knife.depth": "120mm"}, "knife beside the hook's beak the whole turn"),
+        ({"knife.under": "0.1mm"}, "knife under the next loop"),
+        ({"knife.overlap": "3mm"}, "knife past the hook's under edge, below its upper one"),
+    ],
+)
+def test_knives_that_have_no_room_are_a_failed_check(settings: dict[str, str], check: str) -> None:
+    report = MACHINE.report(made(pile="cut", **settings), illustrated=False, assembled=False)
+    assert check in {str(one.name) for one in report.failed}
+
+
+@pytest.mark.parametrize("settings", [{"pile": "cut"}, {**SCROLLED, "pattern.selection": "needles"}])
+def test_every_part_has_a_turkish_noun(settings: dict[str, str]) -> None:
+    bodies = MACHINE.tree(made(**settings)).bodies
+    titles = {str(one.part.title) for body in bodies for one in body.occurrences}
+    assert [title for title in sorted(titles) if named(title) == title] == []

@@ -7,15 +7,18 @@ from pathlib import Path
 from types import MappingProxyType
 
 from ilmek.arguments import Arguments
+from ilmek.io.mechanism_file import MechanismFile, with_values
+from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.study.order import StudyOrder
 from ilmek.jobs.study.run import StudyResult
 from ilmek.jobs.study.run import study as carried_out
+from ilmek.jobs.study.targets import target_of_data
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 
 
 def study(
-    target: str | Path,
+    target: str | Path | MechanismFile,
     vary: Mapping[str, str] | str | Path,
     /,
     *,
@@ -37,6 +40,8 @@ def study(
 ) -> StudyResult:
     """Study a machine of the catalogue, a machine file or a mechanism file over ranges of its parameters.
 
+    target    name, path, or a file that was read: its `values` vary
+
     vary      name -> range "20deg..40deg", values "5, 6, 8", tolerance "80mm+-0.05mm" or class "20mm H7"; a
               distribution may follow: uniform, normal, triangular; or a table of designs (CSV), a column a parameter
     goals     results to make least, or "most NAME"          hold     limits, "transmission_angle_min >= 40deg"
@@ -56,9 +61,14 @@ def study(
     """
     given = Arguments("a study")
     table = isinstance(vary, str | Path)
+    settings = given.mapping("fixed", fixed, lambda _, value: value)
+    read = None
+    if isinstance(target, MechanismFile):
+        texts = {name: str(value) for name, value in settings.items()}
+        read = target_of_data(with_values(target.data, texts), MotionRequest({}))
     order = StudyOrder(
-        str(given.path("target", target)),
-        given.mapping("fixed", fixed, lambda _, value: value),
+        target.source.name if isinstance(target, MechanismFile) else str(given.path("target", target)),
+        settings,
         {} if table else given.mapping("vary", vary, given.text),
         given.sequence("goals", goals, str),
         given.sequence("hold", hold, str),
@@ -79,5 +89,6 @@ def study(
         kept,
         workers=given.whole("workers", workers, least=1),
         cluster=address,
+        target=read,
         progress=given.record("progress", progress, Progress),
     )

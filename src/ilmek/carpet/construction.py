@@ -1,9 +1,13 @@
-"""How a carpet is made beyond its size and quality: outline, binding, flat weave, and the heights of its pile."""
+"""How a carpet is made beyond its size and quality: outline, binding, flat weave, heights, fibres, carved lines."""
+
+from collections import defaultdict
+from operator import itemgetter
 
 import numpy as np
 
 from ilmek.carpet.bill import YarnBill
-from ilmek.carpet.cells import OUTSIDE
+from ilmek.carpet.carving import carved_length
+from ilmek.carpet.cells import OUTSIDE, Carving
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.shape import RECTANGLE, ShapeParams
 from ilmek.carpet.yarn_plan import OVERCAST, YarnPlanParams
@@ -30,6 +34,7 @@ class CarpetConstruction:
     binding, binding_width, binding_yarn  of the edge: "" and 0 where nothing is bound; a tape has no yarn
     ends     length of flat weave at the lower and the upper end [m]
     flat     area of flat weave elsewhere [m²]          piles  the heights of its pile
+    fibres   share of each material in the pile that stays       carving, carved  lines, and their length [m]
     """
 
     shape: str
@@ -40,10 +45,14 @@ class CarpetConstruction:
     ends: tuple[float, float]
     flat: float
     piles: tuple[PileOfCarpet, ...]
+    fibres: tuple[tuple[str, float], ...]
+    carving: Carving | None
+    carved: float
 
     def as_json(self) -> JsonObject:
         """As JSON, SI."""
         piles = [{"height": pile.height, "loop": pile.loop, "knots": pile.knots} for pile in self.piles]
+        lines = self.carving and {"length": self.carved, "depth": self.carving.depth, "angle": self.carving.angle}
         return {
             "shape": self.shape,
             "edge": self.edge,
@@ -53,6 +62,8 @@ class CarpetConstruction:
             "kilim_ends": list(self.ends),
             "flat_area": self.flat,
             "piles": piles,
+            "pile_fibres": [{"material": material, "share": share} for material, share in self.fibres],
+            "carving": lines,
         }
 
 
@@ -80,6 +91,10 @@ def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: Yarn
         PileOfCarpet(usual if kind.height is None else kind.height, kind.loop, tied.total)
         for kind, tied in chart.tied_by_kind
     )
+    fibres: dict[str, float] = defaultdict(float)
+    for need in bill.pile:
+        fibres[need.material] += need.kept
+    mass = sum(fibres.values())
     return CarpetConstruction(
         RECTANGLE if not cut else shape.shape if shape.named and shape.shape else FREE,
         bill.edge,
@@ -89,4 +104,7 @@ def construction_of(chart: Chart, bill: YarnBill, shape: ShapeParams, plan: Yarn
         (lower / chart.quality.along, upper / chart.quality.along),
         flat / chart.quality.knots_per_area,
         tuple(piles),
+        tuple(sorted(((material, kept / mass) for material, kept in fibres.items()), key=itemgetter(1), reverse=True)),
+        None if chart.cells is None else chart.cells.carving,
+        carved_length(chart),
     )

@@ -52,6 +52,7 @@ class PriceRules:
 
     valid      days for which a quotation holds
     finishing  cost of washing, shearing and inspection of a square metre; None: that of the loom's rates, in euros
+    carving    cost of a metre of carved lines; None: that of the loom's rates, in euros
     """
 
     margin: float = 0.30
@@ -59,6 +60,7 @@ class PriceRules:
     discounts: tuple[tuple[int, float], ...] = ()
     valid: int = 30
     finishing: float | None = None
+    carving: float | None = None
 
     def discount(self, carpets: int) -> float:
         """The discount of an order of so many carpets [-].

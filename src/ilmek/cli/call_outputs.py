@@ -31,7 +31,7 @@ class CallOutputs:
     def __init__(self, outputs: Outputs, progress: Progress, to: Mapping[str, str | Path | None]) -> None:
         self.outputs, self.progress = outputs, progress
         self._to = {option: str(path) for option, path in to.items() if path is not None}
-        self._printed: list[str] = []
+        self._printed: list[str | bytes] = []
         self._left_out: list[str] = []
         if list(self._to.values()).count(STANDARD) > 1:
             both = " and ".join(sorted(option for option, path in self._to.items() if path == STANDARD))
@@ -40,7 +40,7 @@ class CallOutputs:
             if path != STANDARD:
                 outputs.expect_file(Path(path), option)
 
-    def give(self, option: str, content: Callable[[], str]) -> None:
+    def give(self, option: str, content: Callable[[], str | bytes]) -> None:
         """Stage the content of an option's file, or keep it for standard output; nothing if the option is not given."""
         to = self._to.get(option)
         if to == STANDARD:

@@ -1,4 +1,4 @@
-"""`ilmek inspect`: show a loom programme."""
+"""`ilmek inspect`: show a loom programme, or the draft of a weaving program."""
 
 from pathlib import Path
 
@@ -7,10 +7,13 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_pairs, show_table
+from ilmek.errors import ParameterError
+from ilmek.io.draft_file import is_draft, read_draft
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.loom.account import stop_duration
 from ilmek.loom.operations import LoomSetup, Stop
 from ilmek.units import format_quantity
+from ilmek.weaving.draft import Draft
 
 MOST_RUNS = 4000
 """Largest number of runs of a row that are printed; a table of more takes seconds, and nobody reads it."""
@@ -23,13 +26,14 @@ Examples:
   ilmek inspect carpet/programme.ilmek
   ilmek inspect carpet/programme.ilmek --row 1
   ilmek inspect carpet/programme.ilmek --row 1 --json -
+  ilmek inspect carpet/chart.wif
 
-Limits: file 1,000 MB.
+Limits: file 1,000 MB; WIF: 10 MB, 5,000 warps or picks, 1,000 shafts or treadles.
 """
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.ilmek")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
 @click.option(
     "--row",
     "number",
@@ -40,16 +44,43 @@ Limits: file 1,000 MB.
 @force_option
 @json_option
 def command(file: Path, number: int | None, force: bool, json_to: str | None) -> None:
-    """Show the carpet, colours and statistics of a loom programme, and one row as the heads tie it.
+    """Show the carpet, colours and statistics of a loom programme, FILE.ilmek, and one row as the heads tie it.
 
-    Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart.
+    Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart. Of FILE.wif, the draft of
+    a weaving program, threads, shafts, weave, floats and colours are shown.
     """
     with call_outputs({"--json": json_to}, force=force, inputs={"FILE": file}) as call:
+        if is_draft(file):
+            if number is not None:
+                raise ParameterError("--row of a WIF file", allowed="a programme", do="leave it out")
+            draft = read_draft(file)
+            call.give_json(draft.as_json)
+            if not call.quiet:
+                show_draft(draft)
+            return
         inspection_result = inspect_programme(file, number, progress=call.progress)
         call.give_json(inspection_result.as_json)
     if not call.quiet:
         show_programme(inspection_result)
         show_row(inspection_result)
+
+
+def show_draft(draft: Draft) -> None:
+    """Print threads, shafts, spacing, weave and colours of a draft."""
+    picks, warps = draft.up.shape
+    floats = f"longest float {draft.warp_float} picks in the warp, {draft.weft_float} warps in the weft"
+    by = f"{draft.treadles} treadles" if draft.treadles else "a lift plan"
+    pitches = {"warp pitch": draft.warp_pitch, "weft pitch": draft.weft_pitch}
+    show_pairs(
+        [
+            ("threads", f"{warps:,} warps, {picks:,} picks"),
+            ("loom", f"{draft.shafts} shafts, {by}"),
+            *((name, format_quantity(pitch, "mm")) for name, pitch in pitches.items() if pitch is not None),
+            ("weave", "plain weave" if draft.is_plain else floats),
+        ]
+    )
+    lines = [(name, f"{of_warp:,}", f"{of_weft:,}") for name, of_warp, of_weft in draft.colours]
+    show_table(("colour", "warps", "picks"), lines, right=(1, 2))
 
 
 def show_programme(found: InspectionResult) -> None:

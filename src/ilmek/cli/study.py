@@ -13,6 +13,7 @@ from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.table_csv import csv_text
+from ilmek.io.table_parquet import parquet_bytes
 from ilmek.jobs.study.order import METHODS, StudyOrder, read_costs, read_yield, study_file
 from ilmek.jobs.study.report import study_report
 from ilmek.jobs.study.run import study
@@ -67,6 +68,7 @@ follow: uniform, normal, triangular).
 )
 @click.option("--resume", is_flag=True, help="Go on with the results file of --out.")
 @file_option("--csv", "FILE.csv", "Write the designs as a table, SI and radians.", "csv_to")
+@click.option("--parquet", type=click.Path(path_type=Path), metavar="FILE", help="The same as Parquet (extra parquet).")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @force_option
 @json_option
@@ -81,6 +83,7 @@ def command(
     out: Path | None,
     resume: bool,
     csv_to: Path | None,
+    parquet: Path | None,
     page_to: Path | None,
     force: bool,
     json_to: str | None,
@@ -92,17 +95,20 @@ def command(
     """
     order = _order(target, read_settings(vary), read_settings(settings), time_limit, words)
     _require_file(out, resume, force)
-    with call_outputs({"--json": json_to, "--report": page_to, "--csv": csv_to}, force=force) as call:
+    with call_outputs(
+        {"--json": json_to, "--report": page_to, "--csv": csv_to, "--parquet": parquet}, force=force
+    ) as call:
         found = study(order, out, replace=not resume, workers=workers, cluster=cluster, progress=call.progress)
         report = study_report(found)
         call.give_page("--report", report)
         call.give("--csv", lambda: csv_text(found.table(), call.progress.part(0.0, 1.0, "table")))
+        call.give("--parquet", lambda: parquet_bytes(found.table()))
         call.give_json(report.as_json)
     if call.quiet:
         note_verdict(report.all_checks)
     else:
         show_report(report)
-        call.show_files({"--report": "report", "--csv": "table"})
+        call.show_files({"--report": "report", "--csv": "table", "--parquet": "table"})
         if out is not None:
             say(f"results: {out}")
     for warning in report.warnings:

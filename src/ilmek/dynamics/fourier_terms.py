@@ -11,7 +11,7 @@ nodes, where the factor 1 - e^{iNq} of the leading term is greatest.
 
 import numpy as np
 
-from ilmek.arrays import Complex, Float
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.linkage.model import Rotation
 from ilmek.records import record
@@ -25,6 +25,9 @@ USABLE = 1e-11
 
 MAX_NODES = 8192
 """Greatest number of nodes on a turn."""
+
+_WAVES = 1j * np.arange(MAX_NODES // 2)
+"""Exponents of all waves at an angle of 1 rad."""
 
 
 @record
@@ -41,9 +44,16 @@ class FourierTerms:
     def __call__(self, position: float) -> tuple[float, float, float, float]:
         """J [kg m²], the two Q [N m] and the fall of Q [N m s] at an input angle [rad]."""
         # NumPy, not a kernel: loading the compiler takes longer than a whole run-up.
-        waves = np.exp(np.arange(len(self.coefficients)) * (1j * position))
+        waves = np.exp(_WAVES[: len(self.coefficients)] * position)
         inertia, weight, push, drag = (waves @ self.coefficients).real.tolist()
         return inertia, weight, push, drag
+
+    def torque(self, angle: FloatArray, speed: float) -> FloatArray:
+        """Torque on the input at a constant speed [rad/s], J' w² / 2 - Q [N m], at its angles [rad]."""
+        waves = _WAVES[: len(self.coefficients)]
+        inertia, weight, push, drag = self.coefficients.T
+        series = waves * inertia * speed**2 / 2 - weight - push + drag * speed
+        return np.asarray((np.exp(np.multiply.outer(angle, waves)) @ series).real)
 
 
 def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:

@@ -4,7 +4,7 @@ Motor: see `motor_drive`. Equation of motion and flywheel: see `reduced` and `fl
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -111,27 +111,28 @@ def motor_run(
     plan: Plan,
     inertias: Mapping[str, Inertia],
     gravity: complex,
-    torque: Callable[[FloatArray], FloatArray],
     task: MotorTask,
 ) -> MotorRun:
     """The run of a mechanism by a motor on its crank, and the motor and flywheel that it requires.
 
     plan      of the mechanism, its input the body "crank"      inertias  body -> inertia [kg, m, kg m²]
     gravity   acceleration [m/s²], complex
-    torque    torque on the crank [N m] at crank angles [rad], at constant speed
     task      motor and flywheel
 
     The start lasts at most 4 J omega_0 / M_0, with J the greatest inertia over a turn, and at most 100 turns at the
     speed. A machine that has not reached 95 % of its speed by then, or within MOST_STEPS steps of the integrator, does
     not start; there is no last turn where the turns at speed end early.
     """
-    speed, wheel = task.speed, task.flywheel
-    required = cyclic_torque(lambda angle, _: torque(angle))
+    speed, wheel, loads = task.speed, task.flywheel, (Gravity(gravity),)
+    bare = reduce(plan, inertias, loads, flywheel=wheel or 0.0)
+    table = tabulate(bare)
+    torque = table.torque if table is not None else bare.torque
+    required = cyclic_torque(lambda angle, _: torque(angle, speed))
     if wheel is None:
         wheel = max(flywheel(required.excess, speed, task.fluctuation) - inertias["crank"].about(0), 0.0)
     most = task.torque or required.peak.value
-    reduced = reduce(plan, inertias, (Gravity(gravity),), flywheel=wheel)
-    if most == 0 or tabulate(reduced) is None:
+    reduced = reduce(plan, inertias, loads, flywheel=wheel)
+    if most == 0 or table is None:
         return MotorRun(required, wheel, most, None, False, None, None)
 
     motor = MotorDrive(most, speed, task.slip)

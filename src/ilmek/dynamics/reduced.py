@@ -91,6 +91,11 @@ class ReducedMechanism:
         push = self._force(unit, solve(self.plan, position), self.steady) if damped else moving
         return Terms(inertia, slope, weight, push, push - moving, unit.status)
 
+    def torque(self, position: Samples, speed: float) -> Samples:
+        """Effort on the only input at a constant speed, J' q'² / 2 - Q [N m; N], without live loads and friction."""
+        terms = self.terms(position)
+        return terms.slope * speed**2 / 2 - terms.weight - terms.push + terms.drag * speed
+
     def live_force(self, position: Samples, speed: Samples, time: Samples) -> Samples:
         """Q of the loads that may depend on the motion [N m; N], at input values [rad; m], speeds [rad/s; m/s] and
         times [s].

@@ -39,7 +39,7 @@ _LARGEST_COUNT = 1_000_000
 def read_price(root: FactoryEntry, currency: str) -> PriceRules:
     """The rules of a price; without the table those of the class."""
     row, usual = root.table("price"), PriceRules()
-    row.keys("margin", "tax", "discount", "valid", "finishing")
+    row.keys("margin", "tax", "discount", "valid", "finishing", "carving")
     discounts = row.table("discount")
     steps = []
     for key in discounts.data:
@@ -52,6 +52,7 @@ def read_price(root: FactoryEntry, currency: str) -> PriceRules:
         tuple(sorted(steps)),
         row.count("valid", usual.valid, 1, 1000),
         row.money("finishing", currency),
+        row.money("carving", currency),
     )
 
 

@@ -11,6 +11,8 @@ only if l - r >= (b - a) s between any two of these: what the proof demands (`lo
 from collections.abc import Sequence
 from itertools import pairwise
 
+from ilmek.loom.operations import RowOperations
+
 
 def standing(spans: Sequence[tuple[int, int] | None], columns: int) -> dict[int, int]:
     """The column at which each head stands that ties nothing in a phase; none where no head ties.
@@ -34,3 +36,17 @@ def standing(spans: Sequence[tuple[int, int] | None], columns: int) -> dict[int,
         for head in range(before, after + 1)
         if spans[head] is None
     }
+
+
+def asides(row: RowOperations, columns: int) -> list[dict[int, int]]:
+    """The column at which each head stands that ties nothing, in each phase of a row of some columns."""
+    if row.counts.all():
+        return [{} for _ in range(row.phases)]
+    ends = row.starts[:-1, None] + row.counts.cumsum(axis=1)
+    knots = [
+        [row.columns[end - count : end] for end, count in zip(ends[:, phase], row.counts[:, phase], strict=True)]
+        for phase in range(row.phases)
+    ]
+    return [
+        standing([(int(one.min()), int(one.max())) if one.size else None for one in tied], columns) for tied in knots
+    ]

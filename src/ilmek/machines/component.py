@@ -195,6 +195,7 @@ class Component(Generic[P, D, A]):
         drawn: bool = True,
         assembled: bool = True,
         listed: bool = True,
+        only: frozenset[str] | None = None,
     ) -> Report:
         """The report of a design, with those of the machines in it.
 
@@ -205,6 +206,7 @@ class Component(Generic[P, D, A]):
         drawn        False: without figures
         assembled    False: without its parts against each other in space
         listed       False: without lists of parts, plates and cam tables, for one of very many designs
+        only         names of results: the others are not computed, but where a check needs them
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
@@ -216,7 +218,7 @@ class Component(Generic[P, D, A]):
             machine=self.name,
             title=self.title,
             parameters=self.parameters(design).as_dict(),
-            results=results_of(*(records if isinstance(records, tuple) else (records,)), *whole),
+            results=results_of(*(records if isinstance(records, tuple) else (records,)), *whole, only=only),
             checks=(
                 *self.checks(analysis),
                 *(check for parts in whole for check in parts.checks),
@@ -233,7 +235,8 @@ class Component(Generic[P, D, A]):
             pieces=(*self.pieces(design), *pieces_of(stand)) if listed else (),
             parts=(*self.parts(design), *bill(stand)) if listed else (),
             children=tuple(
-                child.reported(illustrated=illustrated, drawn=drawn, listed=listed) for child in self.children(design)
+                child.reported(illustrated=illustrated, drawn=drawn, listed=listed, only=only)
+                for child in self.children(design)
             ),
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
@@ -297,14 +300,22 @@ class Child:
         """Work of its acts."""
         return self.component.work(self.design)
 
-    def reported(self, *, illustrated: bool = True, drawn: bool = True, listed: bool = True) -> Report:
-        """Its report, as a machine in a loom; `illustrated`, `drawn` and `listed` as in `Component.report`."""
-        return self.made or _report_in_a_loom(self.component, self.design, illustrated, illustrated and drawn, listed)
+    def reported(
+        self,
+        *,
+        illustrated: bool = True,
+        drawn: bool = True,
+        listed: bool = True,
+        only: frozenset[str] | None = None,
+    ) -> Report:
+        """Its report, as a machine in a loom, as `Component.report` makes it."""
+        drawn = illustrated and drawn
+        return self.made or _report_in_a_loom(self.component, self.design, illustrated, drawn, listed, only)
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(
-    component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool, listed: bool
+def _report_in_a_loom(  # noqa: PLR0917
+    component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool, listed: bool, only: frozenset[str] | None
 ) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
-    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn, listed=listed)
+    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn, listed=listed, only=only)

@@ -1,11 +1,11 @@
 """The results of records, collected for a report."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cache
 from typing import Any
 
-from ilmek.records import DeclaredResult, layout, record
+from ilmek.records import DeclaredResult, group_names, layout, record
 from ilmek.report.json import Json
 from ilmek.report.rounding import rounded
 from ilmek.units import format_quantity, parse_unit
@@ -40,12 +40,12 @@ def least_of_unit(unit: str) -> float:
     return 0.0 if unit and parse_unit(unit).dimension in _NEVER_NEGATIVE else -math.inf
 
 
-def results_of(*records: object) -> tuple[Result, ...]:
+def results_of(*records: object, only: Collection[str] | None = None) -> tuple[Result, ...]:
     """The results declared by records, in order, groups included; a record that is None has none.
 
-    Raises TypeError where two results have the same name.
+    only  names of those that are made; default: all. Raises TypeError where two results have the same name.
     """
-    results = tuple(made for one in records if one is not None for made in _results(one, ""))
+    results = tuple(made for one in records if one is not None for made in _results(one, "", only))
     names = [made.name for made in results]
     if len(set(names)) < len(names):
         twice = sorted({name for name in names if names.count(name) > 1})
@@ -53,13 +53,17 @@ def results_of(*records: object) -> tuple[Result, ...]:
     return results
 
 
-def _results(record: object, prefix: str) -> Iterator[Result]:
+def _results(record: object, prefix: str, only: Collection[str] | None) -> Iterator[Result]:
     kind: Any = type(record)  # a checker takes a class for an object that cannot be hashed
     for attribute, declaration, inner in layout(kind):
+        if only is not None:
+            names = {declaration.name} if declaration is not None else group_names(kind, attribute)
+            if not any(f"{prefix}{inner or ''}{name}" in only for name in names):
+                continue
         value = getattr(record, attribute)
         if inner is not None:
             if value is not None:
-                yield from _results(value, prefix + inner)
+                yield from _results(value, prefix + inner, only)
         elif declaration is not None and not (declaration.optional and value is None):
             yield _result(prefix + declaration.name, value, declaration)
 

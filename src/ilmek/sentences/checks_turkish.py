@@ -242,6 +242,17 @@ life of the loopers' bearings = lüper yataklarının ömrü
 needle drive with its bearing plates along the shafts = miller boyunca yatak levhalarıyla iğne tahriği
 needles out of their bar = çubuğundan çıkan iğneler | deflection of the needle bar = iğne çubuğunun sehimi
 stress of the needle bar = iğne çubuğunun gerilmesi
+knife past the hook's under edge, below its upper one = bıçak kancanın alt kenarının üstünde, üst kenarının altında
+hook leaves after the needle is out of the backing = kanca, iğne zeminden çıktıktan sonra ayrılır
+hook leaves before the needle comes down to it = kanca, iğne ona inmeden önce ayrılır
+lowest natural frequency of the links, over the looper crank's = uzuvların doğal frekansının lüper krankınınkine oranı
+latches move while their notches meet them = çentikleri karşıdayken mandallar hareket eder
+latches over each other on the needle bar = iğne çubuğunda üst üste mandallar | shear of a latch = mandalın kesilmesi
+knife under the next loop = sıradaki ilmeğin altında bıçak
+knife beside the hook's beak the whole turn = bütün dönüşte kanca gagasının yanında bıçak
+needle, hook and knife beside each other = yan yana iğne, kanca ve bıçak
+transmission angle of the knives' rocker = bıçak salınım kolunun iletim açısı
+power balance of the knife's forces = bıçak kuvvetlerinin güç dengesi
 transmission angle of the looper's rocker = lüper salınım kolunun iletim açısı
 twist of a needle against its looper = lüperine karşı iğnenin dönmesi
 torsional frequency over that of the shaft = burulma frekansının milinkine oranı

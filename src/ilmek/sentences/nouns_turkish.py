@@ -172,9 +172,27 @@ on the adapter of its slide, with the screws of that = kızağının adaptörün
 bonded in its pocket = cebine yapıştırılı | bonded in its slot = yarığına yapıştırılı
 on the input shaft of its reducer, with the key of that = redüktörünün giriş milinde, onun kamasıyla
 its loop lies round the bar = ilmeği çubuğun çevresinde | bonded with epoxy resin = epoksi reçineyle yapıştırılı
+its shank in the needle bar, with its latch = sapı iğne çubuğunda, mandalıyla
+bonded on the needle bar = iğne çubuğuna yapıştırılı
 its shank in the needle bar, with a set screw = sapı iğne çubuğunda, setuskurla
 its stub is bonded in the end of the rapier = sapı kancanın ucuna yapıştırılı
 its clamp grips the end of the rapier with its own screws = kelepçesi kancanın ucunu kendi vidalarıyla kavrar
+locking assembly = sıkma bilezik takım+ı | stepper = adım motor+u | stress = gerilme
+latch of a needle = iğne mandal+ı
+loopers = lüperler | looper = lüper | knives = bıçaklar | bearing of the loopers = lüper yatağ+ı
+arm of the loopers = lüper kol+u | arm of the knives = bıçak kol+u | looper bar = lüper çubuğ+u
+bearing plate of the loopers = lüper yatak levha+sı | belt of the loopers = lüper kayış+ı | pin looper = lüper pim+i
+crank shaft of the loopers = lüper krank mil+i | pulley of the loopers' belt = lüper kayışı kasnağ+ı
+looper shaft = lüper mil+i | looper coupler = lüper biyel+i | looper rocker = lüper salınım kol+u
+knife bar = bıçak çubuğ+u | knife shaft = bıçak mil+i | knife coupler = bıçak biyel+i
+knife rocker = bıçak salınım kol+u | bed plate = tabla | post of the bed plate = tabla dikme+si
+presser = baskı lama+sı | end plate = yan levha | flywheel = volan | push rod = itme çubuğ+u | needle bar = iğne çubuğ+u
+tufting needle = tafting iğne+si | spiked roller of the backing = zeminin dikenli silindir+i
+spiked roller = dikenli silindir | yarn roller = iplik silindir+i | yarn feed roller = iplik besleme silindir+i
+plate of scrolls = iplik makaraları levha+sı | scroll of a needle's yarn = iğne ipliğinin makara+sı
+scroll = iplik makara+sı | housing = yatak gövde+si | column between the plates = levhalar arası kolon
+coupling of servo and shaft = servo mil kavrama+sı | finger with its pillar = ayaklı parmak
+pillar of a servo's plate = servo levhasının ayağ+ı | plate of a hand = el levha+sı
 """
 
 NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair in line.split(" | "))

@@ -36,8 +36,11 @@ class StudySubject(Protocol):
     def together(self) -> int:
         """How many designs are evaluated at once; 1: each alone."""
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
-        """The numbers of the design with these values. Raises IlmekError where there is no such design."""
+    def numbers(self, values: Mapping[str, Value], only: Sequence[str] | None = None) -> Numbers:
+        """These results, or all, and the checks of the design with these values.
+
+        Raises IlmekError where there is no such design.
+        """
 
     def numbers_together(self, designs: Sequence[Mapping[str, Value]], results: Sequence[str]) -> Mapping[int, Numbers]:
         """These results, and the checks, of those of some designs, by their places, that are evaluated at once."""
@@ -71,6 +74,11 @@ class Question:
     results: tuple[str, ...]
     holds: tuple[Hold, ...] = ()
     time_limit: float = 0.0
+
+    @property
+    def needed(self) -> tuple[str, ...]:
+        """The results and those that have a limit."""
+        return tuple(dict.fromkeys((*self.results, *(hold.result for hold in self.holds))))
 
 
 @record
@@ -115,9 +123,8 @@ def evaluated(question: Question, designs: Sequence[Mapping[str, Value]]) -> lis
     """The outcomes of some designs. A design that is refused, that fails or takes too long has a reason instead."""
     target, found = question.target, dict[int, Numbers]()
     if target.together > 1 and not question.time_limit:
-        needed = dict.fromkeys((*question.results, *(hold.result for hold in question.holds)))
         with suppress(Exception):  # then each of them is evaluated alone, and its fault is its reason
-            found = dict(target.numbers_together(designs, tuple(needed)))
+            found = dict(target.numbers_together(designs, question.needed))
     return [
         _outcome(question, found[place]) if place in found else _evaluated(question, values)
         for place, values in enumerate(designs)
@@ -127,7 +134,7 @@ def evaluated(question: Question, designs: Sequence[Mapping[str, Value]]) -> lis
 def _evaluated(question: Question, values: Mapping[str, Value]) -> Outcome:
     try:
         with _at_most(question.time_limit):
-            numbers = question.target.numbers(values)
+            numbers = question.target.numbers(values, question.needed)
     except IlmekError as error:
         return Outcome(REFUSED, str(error))
     except _TooSlow:

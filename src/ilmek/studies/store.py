@@ -135,11 +135,13 @@ class StudyFile:
         names = ", ".join(_quoted(name) for name in (*self.variables, *self.results))
         found = self._base.execute(
             f"SELECT status, failed, worst, {names} FROM design WHERE id >= ? AND id < ? ORDER BY id", (first, end)
-        ).fetchall()
-        numbers = np.array([[np.nan if v is None else v for v in row[1:]] for row in found], dtype=float)
-        numbers = numbers.reshape(len(found), 2 + len(self.variables) + len(self.results))
-        split = 2 + len(self.variables)
-        made = np.array([row[0] is None for row in found], dtype=bool)
+        )
+        count, split = max(min(end, len(self)) - first, 0), 2 + len(self.variables)
+        numbers, made = np.empty((count, split + len(self.results))), np.empty(count, dtype=bool)
+        for start in range(0, count, COMMIT):  # rows of Python take ten times the memory
+            rows = found.fetchmany(COMMIT)
+            made[start : start + COMMIT] = [row[0] is None for row in rows]
+            numbers[start : start + COMMIT] = [[np.nan if v is None else v for v in row[1:]] for row in rows]
         return StudyRows(numbers[:, 2:split], numbers[:, split:], numbers[:, 0], numbers[:, 1], made)
 
     def margins(self, first: int = 0, last: int | None = None) -> Float[np.ndarray, "n checks"]:

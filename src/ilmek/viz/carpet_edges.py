@@ -44,23 +44,24 @@ def _bundle(draw: ImageDraw.ImageDraw, centre: float, spacing: float, height: in
     knot, along = 0.20 * height, np.linspace(0.0, 1.0, 9)
     width = max(1, round(spacing / 7))
     strands = 7
-    for number in range(strands):
-        shade = _cotton(0.68 + 0.34 * number / strands + rng.normal(0.0, 0.03))
+    upper = [0.68 + 0.34 * number / strands + rng.normal(0.0, 0.03) for number in range(strands)]
+    drawn = [(rng.normal(0.0, 0.03), rng.normal(0.0, 0.30), rng.uniform(0, 2 * np.pi), rng.uniform(0.84, 0.99))
+             for _ in range(strands)]  # fmt: skip
+    lower = [0.66 + 0.36 * number / strands + one[0] for number, one in enumerate(drawn)]
+    shades = _cotton([*upper, *lower, 0.8, 1.05])
+    for number, shade in enumerate(shades[:strands]):
         start = centre + spacing * 0.42 * (number / (strands - 1) - 0.5)
         draw.line([(start, 0), (centre, knot)], fill=shade, width=width)
-    for number in range(strands):
-        shade = _cotton(0.66 + 0.36 * number / strands + rng.normal(0.0, 0.03))
-        sway, phase = rng.normal(0.0, 0.30) * spacing, rng.uniform(0, 2 * np.pi)
-        length = (height - knot) * rng.uniform(0.84, 0.99)
-        x = centre + sway * along**1.4 + 0.07 * spacing * np.sin(phase + 9.0 * along) * along
-        y = knot + length * along
-        draw.line(list(zip(x.tolist(), y.tolist(), strict=True)), fill=shade, width=width, joint="curve")
+    _, sways, phases, lengths = np.array(drawn).T[..., np.newaxis]
+    x = centre + sways * spacing * along**1.4 + 0.07 * spacing * np.sin(phases + 9.0 * along) * along
+    y = knot + (height - knot) * lengths * along
+    for shade, points in zip(shades[strands:], np.stack((x, y), axis=-1), strict=False):
+        draw.line(list(map(tuple, points.tolist())), fill=shade, width=width, joint="curve")
     radius = 0.16 * spacing
-    draw.ellipse((centre - radius, knot - 1.3 * radius, centre + radius, knot + 1.3 * radius), fill=_cotton(0.8))
-    draw.ellipse((centre - 0.6 * radius, knot - radius, centre + 0.3 * radius, knot + 0.2 * radius), fill=_cotton(1.05))
+    draw.ellipse((centre - radius, knot - 1.3 * radius, centre + radius, knot + 1.3 * radius), fill=shades[-2])
+    draw.ellipse((centre - 0.6 * radius, knot - radius, centre + 0.3 * radius, knot + 0.2 * radius), fill=shades[-1])
 
 
-def _cotton(brightness: float) -> tuple[int, int, int]:
-    light = np.array(COTTON, dtype=np.float32)[np.newaxis, np.newaxis, :] * np.float32(brightness)
-    red, green, blue = encoded(light)[0, 0].tolist()
-    return red, green, blue
+def _cotton(brightness: list[float]) -> list[tuple[int, int, int]]:
+    light = np.array(COTTON, dtype=np.float32) * np.array(brightness, dtype=np.float32)[:, np.newaxis]
+    return [(red, green, blue) for red, green, blue in encoded(light).tolist()]

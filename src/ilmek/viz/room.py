@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from PIL import Image, ImageDraw, ImageFilter, ImageOps
 
-from ilmek.arrays import FloatArray, Rgb
+from ilmek.arrays import BoolArray, FloatArray, Rgb
 from ilmek.records import record
 
 WIDE, HIGH = 1200, 800
@@ -125,10 +125,10 @@ def _floor(bare: _BareRoom, carpet: Image.Image, size: tuple[float, float]) -> R
     inside = (across > 0) & (across < wide - 1) & (down > 0) & (down < high - 1)
     seen = _read(texels, across[inside], down[inside])
     there = np.flatnonzero(inside)
-    shadow = np.ones(x.size)
+    shadow = np.ones(x.size, np.float32)
     shadow[there] = 1.0 - 0.40 * seen[:, 3] / 255
-    floor = np.array(_OAK) * (bare.boards * shadow.reshape(x.shape) * light)[..., np.newaxis]
-    pile = np.any(seen[:, :3] < _WHITE, axis=1)
+    floor = np.array(_OAK, np.float32) * (bare.boards * shadow.reshape(x.shape) * light)[..., np.newaxis]
+    pile = _coloured(seen)
     floor.reshape(-1, 3)[there[pile]] = seen[pile, :3] * light.reshape(-1)[there[pile], np.newaxis]
     return _codes(floor)
 
@@ -137,8 +137,8 @@ def _framed(carpet: Image.Image, width: float) -> Rgb:
     """The picture of the carpet with a margin, and as a fourth colour the shadow that it casts beside it."""
     blur = max(1.0, _SHADOW * carpet.width / width)
     framed = ImageOps.expand(carpet.convert("RGB"), round(3 * blur), (255, 255, 255))
-    pile = np.any(np.asarray(framed) < _WHITE, axis=2)
-    shadow = Image.fromarray(np.where(pile, np.uint8(255), np.uint8(0))).filter(ImageFilter.GaussianBlur(blur))
+    shadow = Image.fromarray(255 * _coloured(np.asarray(framed)).astype(np.uint8))
+    shadow = shadow.filter(ImageFilter.GaussianBlur(blur))
     return np.dstack((np.asarray(framed), np.asarray(shadow)))
 
 
@@ -157,13 +157,20 @@ def _edge(inside: FloatArray) -> FloatArray:
     return edge
 
 
+def _coloured(picture: Rgb) -> BoolArray:
+    """Where a picture is not white paper; the last axis are its colours."""
+    paper: BoolArray = (picture[..., 0] >= _WHITE) & (picture[..., 1] >= _WHITE) & (picture[..., 2] >= _WHITE)
+    return ~paper
+
+
 def _read(texels: Rgb, across: FloatArray, down: FloatArray) -> FloatArray:
-    """The picture between its pixels, bilinear."""
+    """The picture between its pixels, bilinear; its four colours are read as one number."""
     column, row = across.astype(np.intp), down.astype(np.intp)
-    right, low = (across - column)[:, np.newaxis], (down - row)[:, np.newaxis]
-    upper = texels[row, column] * (1 - right) + texels[row, column + 1] * right
-    lower = texels[row + 1, column] * (1 - right) + texels[row + 1, column + 1] * right
-    between: FloatArray = upper * (1 - low) + lower * low
+    right, low = (part.astype(np.float32)[:, np.newaxis] for part in (across - column, down - row))
+    wide, packed = texels.shape[1], texels.view(np.uint32).ravel()
+    at = row * wide + column
+    near, aside, below, over = (packed[at + step].view(np.uint8).reshape(-1, 4) for step in (0, 1, wide, wide + 1))
+    between: FloatArray = (near * (1 - right) + aside * right) * (1 - low) + (below * (1 - right) + over * right) * low
     return between
 
 

@@ -119,6 +119,19 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         affinity="machine",
     ),
     _post(
+        "/study/numbers",
+        "studio.study:numbers",
+        "What can vary of a machine or a mechanism, with a range about its present value; and its results.",
+        affinity="sensitivities",
+    ),
+    _post(
+        "/study",
+        "studio.study:studied",
+        "Designs of a machine or a mechanism over ranges, as figures: all designs, each result over each variable.",
+        limit=HOUR,
+        work=True,
+    ),
+    _post(
         "/synthesis/candidates",
         "studio.synthesis.tasks:candidates",
         "The four-bars for a task, ranked, with reasons for those left out; `quick` while a point is dragged.",

@@ -2251,6 +2251,75 @@ export interface SpecksRequest {
   path?: string;
 }
 /**
+ * What a study found.
+ *
+ *     figures   all designs first, then each result over each variable
+ *     designs   what varies, as settings, of each design of the first figure
+ *     feasible  of the designs that were made, those of which every check holds
+ *     command   of the study, with which it goes on at a terminal
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "StudyAnswer".
+ */
+export interface StudyAnswer {
+  figures: ShownFigure[];
+  designs: {
+    [k: string]: string;
+  }[];
+  samples: number;
+  made: number;
+  feasible: number;
+  warnings: string[];
+  command: string;
+}
+/**
+ * What can vary, and the results that can be goals.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "StudyNumbers".
+ */
+export interface StudyNumbers {
+  varied: VariedNumber[];
+  results: string[];
+}
+/**
+ * A number that can vary, and a range about its present value; "" without one.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "VariedNumber".
+ */
+export interface VariedNumber {
+  name: string;
+  range: string;
+}
+/**
+ * Designs over ranges.
+ *
+ *     machine, settings   of a machine of the catalogue; "": of the mechanism
+ *     mechanism, over, speed   plain data of a mechanism file, and its motion      path  of its file, for the commands
+ *     vary     parameter, or entry of `values` -> range, `25deg..35deg`
+ *     goals    results, `most` before one that is to be large      record   further results      samples  designs
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "StudyRequest".
+ */
+export interface StudyRequest {
+  machine?: string;
+  settings?: {
+    [k: string]: number | boolean | string | null;
+  };
+  mechanism?: {};
+  path?: string;
+  over?: string;
+  speed?: string;
+  vary?: {
+    [k: string]: string;
+  };
+  goals?: string[];
+  record?: string[];
+  samples?: number;
+}
+/**
  * The four-bars for a task, the best first.
  *
  *     quick     whether the search was short: the full one may find more, and better ones

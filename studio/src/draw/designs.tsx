@@ -1,4 +1,5 @@
 /** Designs of a study: parallel coordinates with a brush on each axis, and each pair of columns as a scatter. */
+import type { ComponentChildren } from "preact";
 import { useMemo, useRef, useState } from "preact/hooks";
 import { t } from "../text";
 import { Button, formatQuantity, parseUnit } from "../ui";
@@ -27,8 +28,16 @@ const axisX = (field: Field, column: number, count: number) =>
 const axisY = (field: Field, span: Span, value: number) =>
   field.height - FOOT - ((value - span.low) / (span.high - span.low)) * (field.height - TOP - FOOT);
 
+interface DesignsProps {
+  cloud: ShownCloud;
+  title: string;
+  height?: number;
+  /** What can be done with a design that is chosen, by its number in the figure. */
+  children?: (design: number) => ComponentChildren;
+}
+
 /** The designs of a study; a press on one gives the command that makes it. */
-export function Designs({ cloud, title, height = 300 }: { cloud: ShownCloud; title: string; height?: number }) {
+export function Designs({ cloud, title, height = 300, children }: DesignsProps) {
   const spans = useMemo(() => cloud.values.map((row) => spanOf([row])), [cloud]);
   const [brushes, setBrushes] = useState<Brushes>(new Map());
   const [hidden, setHidden] = useState<ReadonlySet<number>>(new Set());
@@ -78,6 +87,7 @@ export function Designs({ cloud, title, height = 300 }: { cloud: ShownCloud; tit
         )}
       </ul>
       {chosen !== null && <Chosen cloud={cloud} design={chosen} />}
+      {chosen !== null && children?.(chosen)}
       <Scatters {...{ cloud, spans, kept, chosen, setChosen }} />
     </div>
   );

@@ -4,6 +4,7 @@ import "./draw.css";
 
 export { CheckList, type CheckShown } from "./checks";
 export { CursorContext, type Cursors, cursorOf, moveTo, useCursor } from "./cursor";
+export { Designs } from "./designs";
 export { Drawing } from "./drawing";
 export * from "./figures";
 export { colourOf, colours, cssColour } from "./looks";

@@ -8,6 +8,7 @@ import numpy as np
 from ilmek.arrays import Indices
 from ilmek.carpet.cells import OUTSIDE
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import CODES
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.overlay_marks import draw_marks
 from ilmek.io.chart.printing import PrintCanvas, Printing
@@ -108,23 +109,22 @@ def hatch(canvas: PrintCanvas, boxes: Sequence[tuple[float, float, float, float]
 
 
 def _write_symbols(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
-    """Each row as two texts, black and white, spaced so that every symbol is in its cell."""
+    """Each row as texts, black and white, spaced so that every symbol is in its cell; one for each part of the font."""
     size = min(0.74 * plan.cell_height, 0.98 * plan.cell_width)
     indent = (plan.cell_width - ADVANCE * size) / 2
     rise = (plan.cell_height - 0.72 * size) / 2
+    codes = {of: canvas.code(inks.symbols[of], SIGNS) for of in np.unique(cells).tolist()}
     canvas.saveState()  # restores the character spacing
-    for white in (False, True):
-        signs = np.array([sign if pale == white else " " for sign, pale in zip(inks.symbols, inks.white, strict=True)])
-        text = canvas.beginText()
-        text.setFont(SIGNS, size)
-        text.setCharSpace(plan.cell_width - ADVANCE * size)
-        text.setFillGray(1.0 if white else 0.0)
-        for row, line in enumerate(signs[cells]):
-            written = "".join(line.tolist()).rstrip()
+    for part, white in sorted({(part, inks.white[of]) for of, (part, _) in codes.items()}):
+        signs = np.full(CODES, " ", dtype=object)
+        for of, (own, code) in codes.items():
+            signs[of] = code if (own, inks.white[of]) == (part, white) else " "
+        lines = [f"BT {part} {size:.3f} Tf {plan.cell_width - ADVANCE * size:.3f} Tc {int(white)} g"]
+        for row, line in enumerate(signs[cells].tolist()):
+            written = "".join(line).rstrip()
             if written:
-                text.setTextOrigin(indent, row * plan.cell_height + rise)
-                text.textOut(written)
-        canvas.drawText(text)
+                lines.append(f"1 0 0 1 {indent:.3f} {row * plan.cell_height + rise:.3f} Tm ({written}) Tj")
+        canvas._code.append("\n".join([*lines, "ET"]))
     canvas.restoreState()
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from reportlab import rl_config
 from reportlab.lib.pagesizes import A4
+from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.bill import YarnBill
@@ -89,6 +90,8 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         language = language_spoken()
         self.unit, self.leftward, self.printing = 1, language.leftward, PLAIN
         self._digits = str.maketrans(LATIN, DIGITS[digits] if digits else language.digits)
+        self._figures: dict[str, str] = {}
+        self._shown: dict[tuple[str, str, float], tuple[str, float]] = {}
 
     def numerals(self, text: str) -> str:
         """A text in the language and with the digits of this canvas; a code, like N-204 or #9e2b25, and a name keep
@@ -96,11 +99,13 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         """
         if isinstance(text, Name):
             return text
-        if isinstance(text, Sentence):
-            kept = changed(text, lambda value: value.translate(_KEPT) if isinstance(value, Name) else value)
-            said = translated(kept).translate(self._digits).translate(_SHOWN)
-        else:
-            said = "".join(part if _CODE.match(part) else part.translate(self._digits) for part in _WORDS.split(text))
+        if not isinstance(text, Sentence):
+            if text not in self._figures:
+                parts = (part if _CODE.match(part) else part.translate(self._digits) for part in _WORDS.split(text))
+                self._figures[text] = _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], "".join(parts))
+            return self._figures[text]
+        kept = changed(text, lambda value: value.translate(_KEPT) if isinstance(value, Name) else value)
+        said = translated(kept).translate(self._digits).translate(_SHOWN)
         return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said)
 
     def side(self, x: float, width: float = 0.0) -> float:
@@ -145,15 +150,33 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         return line_width(self.numerals(text), self._fontsize, self._fontname, not self.leftward)
 
     def _draw(self, x: float, y: float, text: str, share: float) -> None:
-        """Draw a text with a share of its width before x."""
+        """Draw a text with a share of its width before x; one that is plain is encoded once, as there are thousands."""
         font, size, rightward = self._fontname, self._fontsize, not self.leftward
         if is_plain(text, font):
-            super().drawString(x - share * self.stringWidth(text, font, size) if share else x, y, text)
+            key = (text, font, size)
+            if key not in self._shown:
+                self._shown[key] = self.operators(text, font, size), self.stringWidth(text, font, size)
+            code, width = self._shown[key]
+            self._code.append(f"BT 1 0 0 1 {x - share * width:.3f} {y:.3f} Tm {code} T* ET")
             return
         draw_line(
             self, x - share * line_width(text, size, font, rightward), y, text, size, base=font, rightward=rightward
         )
         self.setFont(font, size)
+
+    def operators(self, text: str, font: str, size: float) -> str:
+        """The operators of PDF that show a text where a text object is (ISO 32000-1, 9.4), font included."""
+        made = self.beginText()
+        made.setFont(font, size)
+        made._curSubset = -1  # each text names its font, so that texts can follow in any order
+        code: str = made._formatText(text)
+        return code
+
+    def code(self, letter: str, font: str) -> tuple[str, str]:
+        """The name of the part of a font that has a letter, and its code in a text of PDF; a blank has its own."""
+        face = pdfmetrics.getFont(font)
+        ((part, code),) = face.splitString(letter, self._doc)
+        return face.getSubsetInternalName(part, self._doc), self._escape(code)
 
     def draw_letters(self, x: float, y: float, text: str) -> None:
         """A text from x to the right, with its own digits."""

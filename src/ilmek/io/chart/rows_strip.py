@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import NamedTuple
 
 from reportlab.pdfbase.pdfmetrics import stringWidth
 
@@ -28,12 +30,11 @@ class Strip:
     part: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class RunLabel:
-    """A run's label: its middle [pt], from the left edge of the strip, count (empty: one knot) and symbols."""
+class RunLabel(NamedTuple):
+    """A run's label: its middle [pt], from the left edge of the strip, knots (empty: one) and symbols."""
 
     middle: float
-    count: str
+    knots: str
     signs: str
     width: float
 
@@ -44,29 +45,31 @@ class Typesetter:
 
     canvas: PrintCanvas
     size: float
-    _encoded: dict[str, str] = field(default_factory=dict)
+    _encoded: dict[str, tuple[str, str]] = field(default_factory=dict)
 
-    def code(self, text: str) -> str:
-        """The operators of PDF that show a text (ISO 32000-1, 9.4), font included."""
+    def code(self, text: str) -> tuple[str, str]:
+        """The operators of PDF that set the font of a text, and those that show it (ISO 32000-1, 9.4)."""
         if text not in self._encoded:
             parts = [(text, SIGNS)] if is_plain(text, SIGNS) else pieces(text, SIGNS)
-            self._encoded[text] = " ".join(self._piece(*part) for part in parts)
+            font, _, shown = " ".join(self._piece(*part) for part in parts).partition(" TL ")
+            self._encoded[text] = f"{font} TL", shown
         return self._encoded[text]
 
     def _piece(self, text: str, font: str) -> str:
         """A part of a text, in a font whose digits are spaced as those of SIGNS."""
-        made = self.canvas.beginText()
-        made.setFont(font, self.size)
-        made._curSubset = -1  # each text names its font, so that texts can follow in any order
         shown = text if font == SIGNS else codes_of(text, font)
         space = ADVANCE * self.size - stringWidth(shown, font, self.size) / len(text)
-        return f"{space:.3f} Tc {made._formatText(shown)}"
+        return f"{space:.3f} Tc {self.canvas.operators(shown, font, self.size)}"
 
     def show(self, texts: list[tuple[float, float, str]]) -> None:
         """Write texts, each centred on x, with its baseline on y."""
-        half = ADVANCE * self.size / 2
-        shown = [f"1 0 0 1 {x - half * len(text):.2f} {y:.2f} Tm {self.code(text)}" for x, y, text in texts]
-        self.canvas._code.append("\n".join(["BT", *shown, "ET"]))
+        half, before, shown = ADVANCE * self.size / 2, "", ["BT"]
+        for x, y, text in texts:
+            font, code = self.code(text)
+            setting = "" if font == before else font
+            shown.append(f"1 0 0 1 {x - half * len(text):.2f} {y:.2f} Tm {setting} {code}")
+            before = "" if " Tf " in code else font
+        self.canvas._code.append("\n".join([*shown, "ET"]))
 
 
 def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
@@ -125,8 +128,8 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
     for one, level in placed:
         low = base + level * plan.level
         texts.append((one.middle, low, one.signs))
-        if one.count:
-            texts.append((one.middle, low + 1.02 * plan.size, canvas.numerals(one.count)))
+        if one.knots:
+            texts.append((one.middle, low + 1.02 * plan.size, canvas.numerals(one.knots)))
     setter.show(texts)
     _rulers(canvas, strip, plan, reading)
     _numbers(canvas, strip, wide)
@@ -150,26 +153,32 @@ def _dividers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, labels: list[
 
 def _cells(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
     """Fill the runs, mark half knots and jufti knots, frame the strip."""
-    code = canvas._code
+    whole: dict[int, list[str]] = {}
+    marks = []
     for run in strip.runs:
-        begin, end = max(run.first, strip.first), min(run.first + run.cells, strip.stop)
+        begin, end = max(run.first, strip.first) - strip.first, min(run.first + run.cells, strip.stop) - strip.first
         if begin >= end:
             continue
-        x, width = (begin - strip.first) * plan.cell, (end - begin) * plan.cell
-        code.append("{:.3f} {:.3f} {:.3f} rg".format(*inks.fills[run.yarn]) + f" {x:.2f} 0 {width:.2f} {STRIP} re f")
+        whole.setdefault(run.yarn, []).append(f"{begin} 0 {end - begin} 1 re f")
         if run.mark == HALF:
-            code.append("{:.3f} {:.3f} {:.3f} rg".format(*inks.fills[run.second]))
-            right = [(x + (cell + 0.5) * plan.cell) for cell in range(end - begin)]
-            code.append(" ".join(f"{at:.2f} 0 {plan.cell / 2:.2f} {STRIP} re" for at in right) + " f")
+            right = " ".join(f"{cell}.5 0 .5 1 re" for cell in range(begin, end))
+            marks.append(f"{_filling(inks.fills[run.second])} {right} f")
         elif run.mark == JUFTI:
-            pairs = [(run.first + 2 * knot - strip.first) * plan.cell for knot in range(run.knots)]
-            ink = "1 g" if inks.white[run.yarn] else "0 g"
-            shown = [max(at, 0.0) for at in pairs if x - 2 * plan.cell < at < x + width]
-            bars = " ".join(f"{at + 0.3 * plan.cell:.2f} 3.5 {1.4 * plan.cell:.2f} 2 re" for at in shown)
-            code.append(f"{ink} {bars} f" if shown else "")
+            pairs = [run.first + 2 * knot - strip.first for knot in range(run.knots)]
+            shown = [max(at, 0) for at in pairs if begin - 2 < at < end]
+            bars = " ".join(f"{at}.3 {3.5 / STRIP:.3f} 1.4 {2 / STRIP:.3f} re" for at in shown)
+            marks.append(f"{int(inks.white[run.yarn])} g {bars} f" if shown else "")
+    cells = (f"{_filling(inks.fills[yarn])} {' '.join(boxes)}" for yarn, boxes in whole.items())
+    # The unit is a cell; each box is filled alone, which keeps its edges sharp.
+    canvas._code += [f"q {plan.cell:.4f} 0 0 {STRIP} 0 0 cm", *cells, *marks, "Q"]
     canvas.setStrokeGray(0.25)
     canvas.setLineWidth(0.4)
     canvas.rect(0, 0, (strip.stop - strip.first) * plan.cell, STRIP, stroke=1, fill=0)
+
+
+@lru_cache(maxsize=512)
+def _filling(colour: tuple[float, float, float]) -> str:
+    return "{:.3f} {:.3f} {:.3f} rg".format(*colour)
 
 
 def _rulers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, reading: str) -> None:

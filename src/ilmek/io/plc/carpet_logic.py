@@ -7,7 +7,7 @@ at the row of the host's journal.
 """
 
 from ilmek.io.plc.alarm_logic import raised
-from ilmek.io.plc.sequence_variables import DIGEST_WORDS, LAST_BEAT, PlcSize
+from ilmek.io.plc.sequence_variables import DIGEST_WORDS, LAST_BEAT, NOT_ASIDE, PlcSize
 from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable, indented, loop
 from ilmek.loom.control.alarms import ControlFault, JournalFault
 from ilmek.loom.control.packml import PackMode, PackState
@@ -73,7 +73,7 @@ IF NOT Awake THEN
         Now := SavedEven;
     END_IF;
 {indented(loop("Station", size.stations, "Settling[Station] := TRUE;"))}
-    Sum := Now.Row * INT_TO_DINT(Now.Carpet.Columns);
+    Sum := Now.Before;
 {indented(loop("Head", size.heads, "Sum := Sum + INT_TO_DINT(Now.Tied[Head]);"))}
     IF Now.Begun AND (Sum <> Now.Knots OR Now.Row < 0 OR Now.Row > Now.Carpet.Rows OR Now.Phase < 0
         OR Now.Phase > {size.phases} OR Now.EndsDone < 0 OR Now.EndsDone > {len(ROW_ENDS)}) THEN
@@ -116,9 +116,10 @@ def rows_back(size: PlcSize) -> str:
     """
     return f"""\
 IF RowsBackRequest AND NOT RowsBackSeen AND StateCurrent = {int(PackState.STOPPED)} AND Now.Begun AND RowsBack >= 0
-    AND RowsBack <= {ROWS_BACK} AND Now.Row - INT_TO_DINT(RowsBack) >= Now.StopRow THEN
+    AND RowsBack <= {ROWS_BACK} AND Now.Row - INT_TO_DINT(RowsBack) >= Now.StopRow
+    AND RowsBackKnots >= 0 AND RowsBackKnots <= Now.Before THEN
     Now.Row := Now.Row - INT_TO_DINT(RowsBack);
-    Now.Knots := Now.Row * INT_TO_DINT(Now.Carpet.Columns);
+    Now.Knots := RowsBackKnots;
 {indented(loop("Station", size.stations, "Now.Busy[Station] := FALSE;"))}
 {indented(_row_begins(size))}
 END_IF;
@@ -202,9 +203,10 @@ def _row_begins(size: PlcSize) -> str:
 Now.Phase := 0;
 Now.StopsDone := 0;
 Now.EndsDone := 0;
+Now.Before := Now.Knots;
 RowReady := FALSE;
 Loading := FALSE;
-{loop("Head", size.heads, "Now.Tied[Head] := 0;")}"""
+{loop("Head", size.heads, "Now.Tied[Head] := 0;" + chr(10) + "Stood[Head] := FALSE;")}"""
 
 
 def row_check(size: PlcSize) -> str:
@@ -224,10 +226,13 @@ IF StateCurrent = {int(PackState.EXECUTE)} AND UnitModeCurrent <> {int(PackMode.
         Work := RowData;
         Loading := TRUE;
         Item := 0;
-        Plausible := Work.Phases >= 1 AND Work.Phases <= {size.phases};
+        Plausible := Work.Phases >= 1 AND Work.Phases <= {size.phases} AND Work.Before = Now.Before
+            AND Work.Knots >= 0 AND Work.Knots <= Now.Carpet.Columns;
         Crc := DWORD#{CRC_ONES};
 {indented(indented(loop("Index", DIGEST_WORDS, _crc("Now.Carpet.Programme[Index]", 32))))}
         {_crc("DINT_TO_DWORD(Work.Number)", 32)}
+        {_crc("DINT_TO_DWORD(Work.Before)", 32)}
+        {_crc("INT_TO_DWORD(Work.Knots)", 16)}
         {_crc("INT_TO_DWORD(Work.Phases)", 16)}
 {indented(indented(loop("Index", size.columns, "Seen[Index] := FALSE;")))}
     ELSE
@@ -250,7 +255,7 @@ def _item(size: PlcSize) -> str:
     """One value of the row: knots, then per head its first knot and its limits, then the stops, then the sum itself."""
     return f"""\
 IF Loading AND Plausible THEN
-    Rest := Item - INT_TO_DINT(Now.Carpet.Columns);
+    Rest := Item - INT_TO_DINT(Work.Knots);
     IF Rest < 0 THEN
 {indented(indented(_knot_check()))}
     ELSIF Rest < {size.heads} THEN
@@ -289,22 +294,25 @@ END_IF;
 
 
 def _head_check(size: PlcSize) -> str:
-    """A head: its limits ascend, and its knots end where those of the next head begin."""
+    """A head: its limits ascend, its knots end where the next one's begin, it stands aside where it ties none."""
     return f"""\
 {_crc("INT_TO_DWORD(Work.First[Head])", 16)}
 Before := 0;
 Index := 0;
 WHILE Plausible AND Index < Work.Phases DO
     PhaseEnd := Work.Limits[Head * {size.phases} + Index];
+    Tube := Work.Aside[Head * {size.phases} + Index];
     {_crc("INT_TO_DWORD(PhaseEnd)", 16)}
-    Plausible := PhaseEnd >= Before AND PhaseEnd <= Now.Carpet.Columns;
+    {_crc("INT_TO_DWORD(Tube)", 16)}
+    Plausible := PhaseEnd >= Before AND PhaseEnd <= Work.Knots AND Tube < Now.Carpet.Columns
+        AND (Tube = {NOT_ASIDE} OR (Tube >= 0 AND PhaseEnd = Before));
     Before := PhaseEnd;
     Index := Index + 1;
 END_WHILE;
 IF Head = 0 THEN
     Plausible := Plausible AND Work.First[0] = 0;
 END_IF;
-PhaseEnd := Now.Carpet.Columns;
+PhaseEnd := Work.Knots;
 IF Head < {size.heads - 1} THEN
     PhaseEnd := Work.First[Head + 1];
 END_IF;

@@ -18,9 +18,9 @@ _LETTERS = {0: "X", 1: "B", 2: "W", 4: "D"}
 
 HOST = frozenset(
     ("CntrlCmd", "CmdChangeRequest", "UnitMode", "UnitModeChangeRequest", "StepKnot", "Acknowledge", "GiveUp",
-     "RowsBack", "RowsBackRequest", "JogAxis", "Recipe", "RowData", "RowRequest", "StateCurrent", "UnitModeCurrent",
-     "Refused", "Alarm", "KnotsDone", "CarpetDone", "TieAnswer", "EndAnswer", "AskTie", "AskEnd", "ChangeStart",
-     "ChangeDone", "HostBeat", "PlcBeat")
+     "RowsBack", "RowsBackKnots", "RowsBackRequest", "JogAxis", "Recipe", "RowData", "RowRequest", "StateCurrent",
+     "UnitModeCurrent", "Refused", "Alarm", "KnotsDone", "CarpetDone", "TieAnswer", "EndAnswer", "AskTie", "AskEnd",
+     "ChangeStart", "ChangeDone", "HostBeat", "PlcBeat")
 )  # fmt: skip
 """Variables that the host or the operator's panel reads and writes."""
 

@@ -48,6 +48,11 @@ FOR Station := 0 TO {size.heads} DO
         Least := {size.home.least};
         Most := {size.home.most};
     END_IF;
+    IF Station < {size.heads} THEN
+        IF TieAside[Station] THEN
+            Least := 0;
+        END_IF;
+    END_IF;
     Fault := 0;
     IF Order[Station] THEN
 {indented(indented(_report(size)))}
@@ -117,7 +122,7 @@ ELSIF Done[Station] AND Accepted[Station] AND Elapsed[Station] >= Least THEN
     END_IF;
     IF Station < {size.heads} THEN
         Retried[Station] := FALSE;
-        StepDone := StepDone OR StepKnot;
+        StepDone := StepDone OR (StepKnot AND NOT TieAside[Station]);
     ELSIF {watched} THEN
         Fault := {ALARMS[ControlFault.STUCK].number};
     END_IF;
@@ -155,11 +160,15 @@ END_IF;"""
 
 
 def _counted(size: PlcSize) -> str:
-    """The operation of a station is in the carpet."""
+    """The operation of a station is in the carpet, or its head stands aside."""
     return f"""\
 IF Station < {size.heads} THEN
-    Now.Tied[Station] := Now.Tied[Station] + 1;
-    Now.Knots := Now.Knots + 1;
+    IF TieAside[Station] THEN
+        Stood[Station] := TRUE;
+    ELSE
+        Now.Tied[Station] := Now.Tied[Station] + 1;
+        Now.Knots := Now.Knots + 1;
+    END_IF;
 ELSE
     Now.EndsDone := Now.EndsDone + 1;
 END_IF;"""

@@ -34,12 +34,11 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
     """The control program that weaves a programme's carpet, and others that are no larger.
 
     cycle  of the controller's task [s]
-    Raises LoomError for a row of more than MOST_COLUMNS knots, and for cells without a knot.
+    Raises LoomError for a row of more than MOST_COLUMNS knots.
     """
     setup = programme.setup
     if setup.columns > MOST_COLUMNS:
         raise LoomError(f"a row of {setup.columns} knots", allowed=f"at most {MOST_COLUMNS} for a PLC")
-    require_all_knots(setup)
     size = size_of(programme, cycle)
     drives = drive_units(setup, cycle)
     records = (*structures(size), *([axis_structure()] if drives else []))
@@ -51,16 +50,6 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
         *sequence_units(size),
     )
     return PlcProject("loom", records, units, cycle, _remarks(setup, programme.digest))
-
-
-def require_all_knots(setup: LoomSetup) -> None:
-    """Raise LoomError for a carpet with cells without a knot: a PLC counts knots by columns, leads no head aside."""
-    if setup.row_knots is not None:
-        raise LoomError(
-            "a programme with cells without a knot",
-            allowed="for a PLC, a knot in every cell: its program counts knots by columns, and leads no head aside",
-            do="weave it with `ilmek run` or `ilmek serve`, or as a rectangle",
-        )
 
 
 def size_of(programme: LoomProgramme, cycle: float = CYCLE) -> PlcSize:

@@ -142,6 +142,7 @@ IF StateCurrent = {int(PackState.COMPLETE)} AND CarpetDone THEN
 END_IF;
 IF StateCurrent <> {int(PackState.EXECUTE)} THEN
     ChangeStart := FALSE;
+{indented(loop("Head", size.heads, "Stood[Head] := FALSE;"))}
 END_IF;
 JogStart := FALSE;
 IF UnitModeCurrent = {int(PackMode.MANUAL)} AND StateCurrent = {int(PackState.EXECUTE)} THEN
@@ -168,6 +169,7 @@ IF StateCurrent = {int(PackState.EXECUTE)} AND UnitModeCurrent <> {int(PackMode.
 {indented(indented(loop("Head", size.heads, _knot(size))))}
         IF NOT Waiting THEN
             Now.Phase := Now.Phase + 1;
+{indented(indented(indented(loop("Head", size.heads, "Stood[Head] := FALSE;"))))}
         END_IF;
     END_IF;
 END_IF;
@@ -175,15 +177,25 @@ END_IF;
 
 
 def _knot(size: PlcSize) -> str:
+    """The next knot of a head, or its move aside; the phase ends when the signals of all heads have fallen.
+
+    So the heads set off together into the next one, which keeps them apart on the way.
+    """
     return f"""\
-IF Now.Tied[Head] < Work.Limits[Head * {size.phases} + Now.Phase] THEN
-    Waiting := TRUE;
-    IF NOT Now.Busy[Head] AND NOT Settling[Head] THEN
+MayBegin := Now.Tied[Head] < Work.Limits[Head * {size.phases} + Now.Phase];
+Index := Work.Aside[Head * {size.phases} + Now.Phase];
+Waiting := Waiting OR MayBegin OR Order[Head] OR Settling[Head] OR (Index >= 0 AND NOT Stood[Head]);
+IF MayBegin OR (Index >= 0 AND NOT Stood[Head]) THEN
+    IF NOT Order[Head] AND NOT Now.Busy[Head] AND NOT Settling[Head] THEN
         IF Rules.Permit{KNOT}[Head] THEN
-            Index := Work.First[Head] + Now.Tied[Head];
-            Now.Column[Head] := Work.Columns[Index];
-            TieTube[Head] := Work.Tubes[Index];
-            Now.Busy[Head] := TRUE;
+            TieAside[Head] := NOT MayBegin;
+            Now.Column[Head] := Index;
+            IF MayBegin THEN
+                Index := Work.First[Head] + Now.Tied[Head];
+                Now.Column[Head] := Work.Columns[Index];
+                TieTube[Head] := Work.Tubes[Index];
+                Now.Busy[Head] := TRUE;
+            END_IF;
             Order[Head] := TRUE;
             Accepted[Head] := FALSE;
         ELSE
@@ -195,14 +207,14 @@ END_IF;
 
 
 def _row_ends(size: PlcSize) -> str:
-    """Before the first operation the knots are counted: the row has as many as the carpet has columns."""
+    """Before the first operation the knots are counted: the row has all of its own."""
     loom = size.heads
     permits = (
         (int(end), f"MayBegin := Rules.Permit{name};\nFault := Rules.Blocked{name};")
         for end, name in ((end, capitalised(end.name)) for end in ROW_ENDS)
     )
     return f"""\
-IF Now.Knots <> (Now.Row + 1) * INT_TO_DINT(Now.Carpet.Columns) THEN
+IF Now.Knots <> Now.Before + INT_TO_DINT(Work.Knots) THEN
     {raised(JournalFault.DAMAGED)}
 ELSIF NOT Now.Busy[{loom}] AND NOT Settling[{loom}] AND Now.EndsDone < {len(ROW_ENDS)} THEN
     MayBegin := FALSE;

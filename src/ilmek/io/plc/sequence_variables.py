@@ -14,6 +14,9 @@ from ilmek.records import value_record
 DIGEST_WORDS = 8
 """Words of 32 bits of a programme's digest."""
 
+NOT_ASIDE = -1
+"""In the place of the warp pair at which a head stands aside: it ties in the phase."""
+
 LAST_BEAT = 32_000
 """Number after which the counters of the heartbeat begin again at 0."""
 
@@ -57,7 +60,7 @@ def structures(size: PlcSize) -> tuple[PlcStructure, ...]:
             (
                 PlcVariable("Programme", PlcArray(DIGEST_WORDS, "DWORD"), "SHA-256 of the programme, first word first"),
                 PlcVariable("Rows", "DINT", "of the carpet"),
-                PlcVariable("Columns", "INT", f"knots of a row, at most {size.columns}"),
+                PlcVariable("Columns", "INT", f"warp pairs, at most {size.columns}"),
                 PlcVariable("Tubes", "INT", "of a head"),
                 PlcVariable("Row", "DINT", "last row that the host gave of this carpet, -1: none", "-1"),
             ),
@@ -66,12 +69,16 @@ def structures(size: PlcSize) -> tuple[PlcStructure, ...]:
             "LoomRow",
             (
                 PlcVariable("Number", "DINT", "row, 0 at the bottom edge", "-1"),
+                PlcVariable("Before", "DINT", "knots of the rows before"),
+                PlcVariable("Knots", "INT", "of the row"),
                 PlcVariable("Phases", "INT", f"phases of the row, at most {size.phases}"),
                 PlcVariable("Columns", PlcArray(size.columns, "INT"), "warp pair of each knot, head by head"),
                 PlcVariable("Tubes", PlcArray(size.columns, "USINT"), "tube of each knot"),
                 PlcVariable("First", PlcArray(size.heads, "INT"), "index of the first knot of each head"),
                 PlcVariable("Limits", PlcArray(size.heads * size.phases, "INT"),
                             f"knots of head h to the end of phase p, at {size.phases} h + p"),
+                PlcVariable("Aside", PlcArray(size.heads * size.phases, "INT"),
+                            f"warp pair where head h stands without a knot in phase p, {NOT_ASIDE}: it ties"),
                 PlcVariable("StopBefore", PlcArray(size.phases, "BOOL"), "packages are changed before the phase"),
                 PlcVariable("Check", "DWORD", "CRC-32 of programme and row"),
             ),
@@ -90,6 +97,7 @@ def structures(size: PlcSize) -> tuple[PlcStructure, ...]:
                 PlcVariable("Busy", PlcArray(size.stations, "BOOL"), "the operation of a station may be in the carpet"),
                 PlcVariable("Column", PlcArray(size.heads, "INT"), "warp pair of the last order of each head"),
                 PlcVariable("Knots", "DINT", "knots in the carpet, counted"),
+                PlcVariable("Before", "DINT", "of them, those of the rows before"),
                 PlcVariable("Alarm", "INT", "the gravest active alarm"),
             ),
         ),
@@ -108,6 +116,7 @@ def block_inputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Acknowledge", "BOOL", "rising edge: the operator has removed the cause of the alarm"),
         PlcVariable("GiveUp", "BOOL", "rising edge in Stopped: the carpet in work is given up"),
         PlcVariable("RowsBack", "INT", "whole rows that were taken out before the row in work, which was too"),
+        PlcVariable("RowsBackKnots", "DINT", "knots of the rows before these"),
         PlcVariable("RowsBackRequest", "BOOL", "rising edge in Stopped: they are woven again"),
         PlcVariable("JogAxis", "INT", f"axis to move in manual mode, 1 to {len(LoomAxis)}, 0: none"),
         *sensor_variables(size.heads),
@@ -137,6 +146,7 @@ def block_outputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("TieStart", per_head, "tie a knot, until it is done or has failed"),
         PlcVariable("TieColumn", codes, "at this warp pair; while asked: the knot in question"),
         PlcVariable("TieTube", PlcArray(size.heads, "USINT"), "from this tube"),
+        PlcVariable("TieAside", per_head, "only go there, and tie no knot: out of the other heads' reach"),
         PlcVariable("EndStart", "BOOL", "carry out an operation after the knots, or home an axis"),
         PlcVariable(
             "EndCode",
@@ -187,6 +197,7 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Answer", numbers, "the answer about its operation"),
         PlcVariable("Elapsed", numbers, "scans since its order began or ended"),
         PlcVariable("Retried", PlcArray(size.heads, "BOOL"), "the knot was tried again"),
+        PlcVariable("Stood", PlcArray(size.heads, "BOOL"), "the head stands aside in the phase in work"),
         PlcVariable("Seen", PlcArray(size.columns, "BOOL"), "the row has a knot on the warp pair"),
         *(PlcVariable(name, "INT") for name in
           ("Head", "Station", "Axis", "Index", "Pass", "Fault", "Least", "Most", "Waited", "Tube", "Before",

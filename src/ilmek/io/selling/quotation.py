@@ -1,5 +1,6 @@
 """Quotation of an order as PDF: prices and days of delivery, the colourways side by side, each carpet in a room."""
 
+from collections.abc import Iterable
 from decimal import Decimal
 from pathlib import Path
 
@@ -9,8 +10,8 @@ from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file, quality_of, size_of
 from ilmek.io.selling.offer import Offer, OfferedCarpet
 from ilmek.io.selling.page import LEFT, ROOM, OrderPage, PageColumn
-from ilmek.sentences import Name, Sentence, noun
-from ilmek.units import cm, format_number, mm
+from ilmek.sentences import Name, Sentence, noun, translated
+from ilmek.units import cm, deg, format_number, mm
 
 _LINES = (
     PageColumn(Sentence("order.carpet"), 0.0),
@@ -20,6 +21,9 @@ _LINES = (
     PageColumn(Sentence("order.net"), 436.0, end=True),
     PageColumn(Sentence("order.delivery"), ROOM, end=True),
 )
+FIBRES = {"wool": "order.fibre-wool", "cotton": "order.fibre-cotton", "silk": "order.fibre-silk"}
+"""Keys of the sentences that name the materials of yarns."""
+
 _BESIDE = 4
 """Most colourways beside one another."""
 
@@ -155,7 +159,18 @@ def construction_facts(made: CarpetConstruction) -> list[tuple[str, str]]:
         key = "order.pile-loop" if pile.loop else "order.pile-cut"
         height = format_number(round(pile.height / mm, 2))
         facts += [(Sentence("order.pile"), Sentence(key, height=height, knots=thousands(pile.knots)))]
+    if len(made.fibres) > 1:
+        facts += [(Sentence("order.pile-fibre"), fibres_in_words(made.fibres))]
+    if made.carving is not None:
+        depth, angle = format_number(round(made.carving.depth / mm, 2)), format_number(round(made.carving.angle / deg))
+        lines = Sentence("order.carving-text", length=f"{made.carved:.1f}", depth=depth, angle=angle)
+        facts += [(Sentence("order.carving"), lines)]
     return facts
+
+
+def fibres_in_words(shares: Iterable[tuple[str, float]]) -> str:
+    """Materials with their shares, in the language that is spoken."""
+    return ", ".join(f"{translated(Sentence(FIBRES[name]))} {100 * share:.0f} %" for name, share in shares)
 
 
 def _in_room(page: OrderPage, offer: Offer, carpet: OfferedCarpet) -> None:

@@ -3,6 +3,7 @@
 from datetime import datetime, timedelta
 from decimal import Decimal
 
+from ilmek.carpet.carving import carved_length
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.price_rules import cents
 from ilmek.carpet.strike_off import part_of, strike_off_window
@@ -11,7 +12,7 @@ from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
 from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.plan import PlanResult
 from ilmek.jobs.plan_fits import PlannedOrder
-from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
+from ilmek.machines.automated_loom.making import CARVING, ON_LOOM, MakingStep
 from ilmek.records import record
 from ilmek.sentences import Name, Sentence
 from ilmek.viz.carpet_picture import draw_carpet, shown_size
@@ -118,11 +119,11 @@ def _costs(
     orders, carpets = plan.inputs.orders_file, plan.carpets(index)
     steps = [step for carpet in carpets for step in plan.steps(carpet)]
     on_loom = sum(step.cost or 0.0 for step in steps if step.name in ON_LOOM) / len(carpets)
-    finishing = orders.price.finishing
-    if finishing is None:
-        off_loom = sum(_known(step, plan) for step in steps if step.name not in ON_LOOM) / len(carpets)
-    else:
-        off_loom = finishing * charted.bill.area
+    rules = orders.price
+    after = [step for step in steps if step.name not in ON_LOOM]
+    by_rates = [step for step in after if (rules.carving if step.name == CARVING else rules.finishing) is None]
+    off_loom = sum(_known(step, plan) for step in by_rates) / len(carpets)
+    off_loom += (rules.finishing or 0.0) * charted.bill.area + (rules.carving or 0.0) * carved_length(charted.chart)
     yarn = charted.bill.price if charted.bill.currency == orders.currency else None
     if yarn is None:
         given = f"{orders.path}: no price of the yarn of {orders.orders[index].name!r} in {orders.currency}"
@@ -141,5 +142,6 @@ def _known(step: MakingStep, plan: PlanResult) -> float:
     if step.cost is None:
         orders = plan.inputs.orders_file
         given = f"{orders.path}: no price of {step.name} in {orders.currency}"
-        raise ParameterError(given, do=f'write finishing = "12 {orders.currency}" under [price]: of a square metre')
+        key, of = ("carving", "metre") if step.name == CARVING else ("finishing", "square metre")
+        raise ParameterError(given, do=f'write {key} = "12 {orders.currency}" under [price]: of a {of}')
     return step.cost

@@ -18,7 +18,7 @@ from ilmek.io.chart.printing import size_of
 from ilmek.io.json_file import json_text
 from ilmek.io.selling.label import write_label
 from ilmek.io.selling.mounting_sheet import write_mounting
-from ilmek.io.selling.quotation import outline_facts
+from ilmek.io.selling.quotation import fibres_in_words, outline_facts
 from ilmek.io.selling.wage_sheet import WageSheet, write_wages
 from ilmek.jobs.chart import ChartResult, write_chart
 from ilmek.jobs.ordering.offering import OrderLine
@@ -29,7 +29,6 @@ from ilmek.records import JsonObject, record
 from ilmek.sentences import Name, Sentence, in_language, translated
 from ilmek.units import format_number, mm
 
-_FIBRES = {"wool": "order.fibre-wool", "cotton": "order.fibre-cotton", "silk": "order.fibre-silk"}
 """What the label names each material by."""
 
 MOUNTING, WAGES, STRIKE_OFF = "mounting.pdf", "wages.pdf", "strike-off"
@@ -124,9 +123,8 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
 
 
 def _label_facts(found: JsonObject, line: OrderLine) -> list[tuple[str, str]]:
-    shares = {part["material"]: f"{100 * part['share']:.0f} %" for part in found["fibre"]}
     heights = " / ".join(format_number(round(pile.height / mm, 2)) for pile in line.offered.made.piles)
-    fibre = ", ".join(f"{translated(Sentence(_FIBRES[name]))} {share}" for name, share in shares.items())
+    fibre = fibres_in_words((part["material"], part["share"]) for part in found["fibre"])
     assumed = any(FACTORS[part["name"]].assumed and part["mass"] for part in found["emissions"]["parts"])
     gases = f"{found['emissions']['mass']:.1f} kg CO\u2082e"
     gases = Sentence("order.gases-assumed", gases=gases) if assumed else gases

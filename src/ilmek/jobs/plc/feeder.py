@@ -13,8 +13,7 @@ from typing import TypeAlias
 
 from ilmek.errors import LoomError
 from ilmek.io.plc.host_data import HostRow, digest_words, host_row
-from ilmek.io.plc.project import require_all_knots
-from ilmek.io.plc.sequence_variables import LAST_BEAT
+from ilmek.io.plc.sequence_variables import LAST_BEAT, NOT_ASIDE
 from ilmek.jobs.plc.host_journal import HostJournal
 from ilmek.loom.control.alarms import ALARMS, JournalFault
 from ilmek.loom.control.packml import PackState
@@ -35,7 +34,7 @@ READ = ("PlcBeat", "RowRequest", "StateCurrent", "UnitModeCurrent", "Alarm", "Kn
         "RowData.Number")  # fmt: skip
 """What the host reads in each cycle."""
 
-ARRAYS = ("Columns", "Tubes", "First", "Limits", "StopBefore")
+ARRAYS = ("Columns", "Tubes", "First", "Limits", "Aside", "StopBefore")
 """Arrays of `RowData`, of which the host reads the sizes."""
 
 
@@ -57,7 +56,6 @@ class Feeder:
         rows: Callable[[int], HostRow] | None = None,
     ) -> None:
         setup = programme.setup
-        require_all_knots(setup)
         if sizes["Columns"] < setup.columns or sizes["First"] != setup.heads:
             raise LoomError(
                 f"a PLC's program for {sizes['First']} heads and {sizes['Columns']} columns",
@@ -66,7 +64,7 @@ class Feeder:
             )
         self.journal, self._setup, self._sizes = journal, setup, sizes
         self._digest = digest_words(programme.digest)
-        self._rows = rows or (lambda number: host_row(programme.operations(number), programme.digest))
+        self._rows = rows or (lambda number: host_row(programme, number))
         self._beat, self._given, self._refused = 0, -1, False
         self._counted: tuple[PlcValue, float] = (-1, 0.0)
         self._waits: float | None = None
@@ -89,7 +87,11 @@ class Feeder:
             self._given = request
         self._refused = refused
         self._beat = 0 if self._beat == LAST_BEAT else self._beat + 1
-        back = {"RowsBack": request - self.journal.row, "RowsBackRequest": True} if self.journal.awaited else {}
+        back: dict[str, PlcValue] = {}
+        if self.journal.awaited:
+            first = self.journal.row
+            knots = self._setup.knots_before(first)
+            back = {"RowsBack": request - first, "RowsBackKnots": knots, "RowsBackRequest": True}
         return [{**self._recipe(), "RowsBackRequest": False, **back, "HostBeat": self._beat}, *writes]
 
     def take_out(self, rows: int, plc: PlcValues) -> None:
@@ -155,14 +157,15 @@ class Feeder:
         phases = sizes["Limits"] // sizes["First"]
         if row.phases > phases:
             raise LoomError(f"row {number + 1} with {row.phases} phases", allowed=f"{phases} in this PLC's program")
-        limits = [0] * sizes["Limits"]
-        for head, ends in enumerate(row.limits):
-            limits[head * phases : head * phases + len(ends)] = ends
+        limits, aside = [0] * sizes["Limits"], [NOT_ASIDE] * sizes["Aside"]
+        for whole_row, heads in ((limits, row.limits), (aside, row.aside)):
+            for head, values in enumerate(heads):
+                whole_row[head * phases : head * phases + len(values)] = values
         missing = [0] * (sizes["Columns"] - len(row.columns))
         content: dict[str, PlcValue] = {
             "Columns": row.columns + missing, "Tubes": row.tubes + missing, "First": row.first, "Limits": limits,
+            "Aside": aside, "Before": row.before, "Knots": len(row.columns), "Phases": row.phases, "Check": row.check,
             "StopBefore": row.stop_before + [False] * (phases - row.phases),
-            "Phases": row.phases, "Check": row.check,
         }  # fmt: skip
         return [
             {"RowData.Number": -1},

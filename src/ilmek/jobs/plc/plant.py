@@ -21,14 +21,15 @@ from ilmek.jobs.plc.feeder import PlcValue, PlcValues
 from ilmek.loom.control.alarms import ALARMS
 from ilmek.loom.control.interlocks import JOG_LIMITS, LoomAxis
 from ilmek.loom.control.packml import PackState
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Home, Jog, Order, Tie
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Home, Jog, Order, StandAside, Tie
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
+from ilmek.loom.standing import asides
 from ilmek.loom.twin.state import Door, EmergencyStop, Repaired
 from ilmek.loom.twin.woven import Woven
 from ilmek.records import JsonObject, value_record
 
-ORDERS = ("TieStart", "TieColumn", "TieTube", "EndStart", "EndCode", "ChangeStart", "JogStart", "JogAxis", "Halt",
-          "AskTie", "AskEnd", "StateCurrent", "Alarm", "RowRequest", "RowsBackRequest")  # fmt: skip
+ORDERS = ("TieStart", "TieColumn", "TieTube", "TieAside", "EndStart", "EndCode", "ChangeStart", "JogStart", "JogAxis",
+          "Halt", "AskTie", "AskEnd", "StateCurrent", "Alarm", "RowRequest", "RowsBackRequest")  # fmt: skip
 """What the loom reads in each cycle."""
 
 _AXES = {code: axis for axis, code in HOME_CODES.items()}
@@ -209,6 +210,12 @@ class PlcPlant:
             code = plc["EndCode"]
             return Home(_AXES[code].value) if code in _AXES else EndRow(self.row, RowEnd(code))
         row, column = self._programme.operations(self.row), plc["TieColumn"][station]
+        if plc["TieAside"][station]:
+            moves = asides(row, self._programme.setup.columns)
+            phases = [phase for phase, move in enumerate(moves) if move.get(station) == column]
+            if not phases:
+                raise LoomError(f"head {station} aside at column {column} in row {self.row}", allowed=f"{moves}")
+            return StandAside(station, self.row, phases[0], column)
         columns = row.columns[row.starts[station] : row.starts[station + 1]].tolist()
         if column not in columns:
             raise LoomError(f"a knot of head {station} at column {column} in row {self.row}", allowed=f"{columns}")
@@ -237,7 +244,7 @@ class PlcPlant:
         if order == self._alone:
             self._alone, self._changed = None, isinstance(order, ChangePackages)
             return
-        drive = self._drives[order.head if isinstance(order, Tie) else -1]
+        drive = self._drives[order.head if isinstance(order, Tie | StandAside) else -1]
         drive.end(ALARMS[report.fault].number if isinstance(report, Failed) else 0)
         if isinstance(report, Done) and isinstance(order, EndRow) and order.operation is RowEnd.TAKE_UP:
             self.row += 1

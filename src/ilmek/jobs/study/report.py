@@ -229,11 +229,16 @@ def _figures(found: StudyResult) -> Iterator[Figure]:
             yield from _failure_plot(found, number)
 
 
+def shown_designs(found: StudyResult) -> np.ndarray:
+    """Numbers of the designs that the picture of all designs shows: those made, or some of very many, and the front."""
+    made = np.flatnonzero(found.rows.made)
+    return np.union1d(made[:: max(1, -(-len(made) // MOST_POINTS))], np.array(found.front, dtype=int)).astype(int)
+
+
 def _cloud(found: StudyResult) -> DesignCloud:
     """All designs that were made, each by what it is: on the front, held, or the check that it fails by most."""
     rows, failures = found.rows, [name for name, _ in _failures(found)]
-    shown = np.flatnonzero(rows.made)
-    shown = np.union1d(shown[:: max(1, -(-len(shown) // MOST_POINTS))], np.array(found.front, dtype=int)).astype(int)
+    shown = shown_designs(found)
     words = [f"fails {name}" for name in failures]
     named = ("best" if len(found.goals) == 1 else "front", *words[:1], "holds", *words[1:])
     kind = np.full(len(shown), named.index("holds"))

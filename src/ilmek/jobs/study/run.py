@@ -85,12 +85,15 @@ class StudyResult(Framed):
         found = dict(zip(heads, self.rows.results.T, strict=True))
         return {**varied, **found, "failed": self.rows.failed, "worst": self.rows.worst}
 
-    def command(self, number: int) -> str:
-        """The command line that makes a design, its pins without play."""
+    def varied(self, number: int) -> dict[str, str]:
+        """What varies of a design, as texts with units, its pins without play."""
         pairs = zip(self.variables, self.rows.points[number], strict=True)
-        varied = {v.name: v.shown(x).replace(" ", "") for v, x in pairs if v.name.partition(".")[0] not in PLAYS}
+        return {v.name: v.shown(x).replace(" ", "") for v, x in pairs if v.name.partition(".")[0] not in PLAYS}
+
+    def command(self, number: int) -> str:
+        """The command line that makes a design."""
         command = "design" if isinstance(self.target, MachineTarget) else "mechanism"
-        sets = (f"--set {name}={value}" for name, value in {**self.order.fixed, **varied}.items())
+        sets = (f"--set {name}={value}" for name, value in {**self.order.fixed, **self.varied(number)}.items())
         return " ".join(("ilmek", command, self.order.target, *sets))
 
 
@@ -101,19 +104,21 @@ def study(
     replace: bool = False,
     workers: int = 1,
     cluster: str | None = None,
+    target: StudyTarget | None = None,
     progress: Progress = SILENT,
 ) -> StudyResult:
     """Carry out a study; designs that its results file has already are not computed again.
 
     file     where the designs are kept; None: nowhere
     replace  a file that exists is removed first, once the order is read
+    target   what is studied; default: read by its name in the order
     Raises ParameterError for an order that cannot be read, or a file of another study; errors of the target;
     OutputError; Cancelled, after which the file has all designs until then.
     """
     check_words(order)
     if not 1 <= workers <= MOST_WORKERS:
         raise ParameterError(f"--workers {workers}", allowed=f"1 to {MOST_WORKERS}")
-    target = read_target(order.target, order.fixed, MotionRequest({}, order.over, order.speed))
+    target = target or read_target(order.target, order.fixed, MotionRequest({}, order.over, order.speed))
     given = read_designs(target, Path(order.designs)) if order.designs else None
     variables = given[0] if given else tuple(read_variable(target, name, text) for name, text in order.vary.items())
     for name in {variable.name for variable in variables} & order.fixed.keys():

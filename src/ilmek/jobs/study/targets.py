@@ -1,7 +1,7 @@
 """What a study evaluates: a machine of the catalogue by its parameters, or a mechanism file by its `values`."""
 
 import cmath
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
@@ -71,11 +71,12 @@ class MachineTarget:
         _, params = find_machine(self.machine).ordered(self.settings)
         return params.as_dict().get(name, self.parameter(name).default)
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], only: Sequence[str] | None = None) -> Numbers:
         """The design's results and checks. Raises any IlmekError."""
         machine, params = find_machine(self.machine).ordered({**self.settings, **values})
-        design = machine.designed(params)
-        return numbers_of(machine.report(design, illustrated=False, drawn=False, assembled=False, listed=False))
+        names = None if only is None else frozenset(part for name in only for part in _parts(name))
+        made = machine.report(machine.designed(params), illustrated=False, assembled=False, listed=False, only=names)
+        return numbers_of(made)
 
     together = 1
 
@@ -119,15 +120,17 @@ class MechanismTarget:
         """The value in the file [SI]."""
         return self.parameter(name).default
 
-    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+    def numbers(self, values: Mapping[str, Value], _only: object = None) -> Numbers:
         """The results and checks of the mechanism in motion. Raises any IlmekError."""
         found = analysis(run(self._reader(values)(values), self.request))
         return numbers_of(mechanism_report(found, drawn=False))
 
-    def _reader(self, names: Iterable[str]) -> Callable[[Mapping[str, Value]], MechanismFile]:
+    def _reader(self, names: Collection[str]) -> Callable[[Mapping[str, Value]], MechanismFile]:
         """Reads designs of which these vary."""
         own = [name for name in names if name.partition(".")[0] not in PLAYS]
         read = values_reader(self.data, own)
+        if len(own) == len(names):
+            return read
         return lambda values: with_play(read({name: values[name] for name in own}), values)
 
     @property
@@ -179,13 +182,24 @@ def read_target(name: str, settings: Mapping[str, Setting], request: MotionReque
         return MachineTarget(order.machine, dict(order.settings))
     values = {given.removeprefix("values."): str(setting) for given, setting in settings.items()}
     read_mechanism(path, values)  # the first error has its line
-    data = with_values(text.data, values)
+    return target_of_data(with_values(text.data, values), request)
+
+
+def target_of_data(data: Mapping[str, object], request: MotionRequest) -> MechanismTarget:
+    """The target of a mechanism file's plain data, in which no value is replaced."""
     return MechanismTarget(data, sha256(repr(sorted(data.items())).encode()).hexdigest(), request)
 
 
 def _no_motion(request: MotionRequest, name: str) -> None:
     if request.over or request.speed:
         raise ParameterError(f"--over and --speed are given for {name}", allowed="they are of a mechanism file")
+
+
+def _parts(name: str) -> Iterator[str]:
+    """What a result may be called in the report that has it: the parts of its name that follow each other."""
+    words = name.split(".")
+    for first in range(len(words)):
+        yield from (".".join(words[first:last]) for last in range(first + 1, len(words) + 1))
 
 
 def numbers_of(report: Report) -> Numbers:

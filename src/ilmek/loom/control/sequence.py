@@ -9,8 +9,8 @@ from itertools import pairwise
 from ilmek.errors import LoomError
 from ilmek.loom.control.exchange import Operation
 from ilmek.loom.control.ports import ChangePackages, EndRow, StandAside, Tie
-from ilmek.loom.operations import LoomProgramme, RowEnd, RowOperations, Stop
-from ilmek.loom.standing import standing
+from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
+from ilmek.loom.standing import asides
 
 ROWS_BACK = 20
 """Most whole rows that are taken out at once: a length of carpet that is still before the cloth beam (assumed)."""
@@ -41,15 +41,7 @@ class RowWork:
         self.limits: list[list[int]] = row.counts.cumsum(axis=1).T.tolist()
         self.ends: tuple[RowEnd, ...] = row.ends
         self.stops: tuple[Stop, ...] = row.stops
-        self.aside: list[dict[int, int]] = [{} for _ in self.limits]
-        if not row.counts.all():
-            self.aside = [self._standing(row, phase, programme.setup.columns) for phase in range(row.phases)]
-
-    def _standing(self, row: RowOperations, phase: int, columns: int) -> dict[int, int]:
-        """Where the heads stand that tie no knot in a phase."""
-        ends = self.limits[phase]
-        tied = [of[end - count : end] for of, end, count in zip(self.columns, ends, row.counts[:, phase], strict=True)]
-        return standing([(min(knots), max(knots)) if knots else None for knots in tied], columns)
+        self.aside = asides(row, programme.setup.columns)
 
 
 class Sequence:

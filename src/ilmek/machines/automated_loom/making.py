@@ -47,6 +47,10 @@ def making_steps(
     return [*on_loom, *finishing_steps(rates, area, carved)]
 
 
+CARVING = "carving"
+"""Name of the step in which lines are carved."""
+
+
 def finishing_steps(rates: CostRates, area: float, carved: float = 0.0) -> tuple[MakingStep, ...]:
     """The steps of making of a carpet of an area [m^2] off the loom, in order.
 
@@ -56,6 +60,6 @@ def finishing_steps(rates: CostRates, area: float, carved: float = 0.0) -> tuple
     return (
         MakingStep("inspection", rates.inspection_time * area, rates.inspection * area),
         MakingStep("shearing", rates.shearing_time * area, rates.shearing * area),
-        *([MakingStep("carving", time, rates.wage * time)] if carved else []),
+        *([MakingStep(CARVING, time, rates.wage * time)] if carved else []),
         MakingStep("washing", rates.washing_time, rates.washing * area),
     )

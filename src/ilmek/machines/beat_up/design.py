@@ -237,7 +237,7 @@ def _run(params: BeatUpParams, duty: Duty) -> MotorRun:
     task = MotorTask(
         params.speed, params.slip, params.fluctuation, made.back_angle, params.motor_torque, params.flywheel
     )
-    return motor_run(made.plan, made.bodies, params.gravity_vector, lambda at: made.state_at(at).torque, task)
+    return motor_run(made.plan, made.bodies, params.gravity_vector, task)
 
 
 @record

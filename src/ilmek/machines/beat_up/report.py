@@ -16,7 +16,7 @@ from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
 from ilmek.machines.linkage_strength import equilibrium_test
 from ilmek.machines.strength_tables import strength_table
-from ilmek.records import record
+from ilmek.records import ComputedGroup, record
 from ilmek.report import Check, Column, Figure, Table, at_least, at_most, columns, group, must
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
 from ilmek.synthesis.crank_rocker.selection import DEVIATIONS, RATIO_LIMIT
@@ -49,15 +49,23 @@ class BeatUpAnalysis:
     balance: Balance = group()
     running: MotorRun = group()
     last_turn: LastTurn | None = group()
-    family: FamilyResult = group()
-    use: BeatUpUse = group()
+
+    @ComputedGroup
+    def family(self) -> FamilyResult:
+        """All crank-rockers with its dead centres."""
+        return self.design.family()
+
+    @ComputedGroup
+    def use(self) -> BeatUpUse:
+        """Strength, travel and start."""
+        return in_use(self.design)
 
 
 @lru_cache(maxsize=8)
 def analyse(design: BeatUp) -> BeatUpAnalysis:
-    """The run and the family of a design."""
+    """The balance and the run of a design."""
     running = design.motor_run()
-    return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family(), in_use(design))
+    return BeatUpAnalysis(design, design.balance, running, running.last_turn)
 
 
 def checks(analysis: BeatUpAnalysis) -> tuple[Check, ...]:

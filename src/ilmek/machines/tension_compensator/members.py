@@ -139,15 +139,20 @@ def saddle_checks(
 ) -> tuple[Check, Check]:
     """The seams of a saddle, and the pin of its roller, that stands out of it; radius  of the bar [m]."""
     roller, seams = members.roller, saddle_seams(params, radius, members.roller, loads)
-    bent = _roller_force(params, loads.line) * (ROLLER_PLAY + roller.width / 2)
     source = "fillet welds of S235 [EN 1993-1-8, 4.5.3.3]"
     return (
         at_most("stress of the weld of a saddle", seams / members.throat, STRENGTH, "MPa", source).with_cure(
             CURE, part_id("saddle")
         ),
-        at_most("bending of the pin of a roller", 32 * bent / (math.pi * roller.bore**3), *_limit(params)).with_cure(
-            CURE, part_id("roller-pin"), part_id("roller")
-        ),
+        roller_pin_check(params, roller, loads.line),
+    )
+
+
+def roller_pin_check(params: TensionCompensatorParams, roller: RollingBearing, line: float) -> Check:
+    """Bending of a roller's pin, that stands out of its saddle to the roller's middle; line  load of a bar [N/m]."""
+    bent = _roller_force(params, line) * (ROLLER_PLAY + roller.width / 2)
+    return at_most("bending of the pin of a roller", 32 * bent / (math.pi * roller.bore**3), *_limit(params)).with_cure(
+        CURE, part_id("roller-pin"), part_id("roller")
     )
 
 
@@ -181,7 +186,7 @@ def _cross_moment(params: TensionCompensatorParams, loads: Loads) -> float:
 
 
 def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
-    """The smallest ball bearing that lives as the roller of bars and rods, else that of the largest load.
+    """The smallest ball bearing that lives as the roller of bars and rods on its pin, else that of the largest load.
 
     line  load of a bar [N/m]; two rollers carry it at a lever
     """
@@ -189,7 +194,8 @@ def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
     balls = sorted((row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE), key=lambda row: row.outer)
     lasting = (row for row in balls if row.static >= ROLLER_STATIC * force)
     living = (row for row in lasting if life(row.dynamic, force, row.kind) >= ROLLER_TURNS)
-    return next(living, max(balls, key=lambda row: row.static))
+    borne = (row for row in living if roller_pin_check(params, row, line).ok)
+    return next(borne, max(balls, key=lambda row: row.static))
 
 
 def _roller_force(params: TensionCompensatorParams, line: float) -> float:

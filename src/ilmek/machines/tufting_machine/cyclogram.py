@@ -10,12 +10,13 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from ilmek.arrays import FloatArray
 from ilmek.cams.laws import spline, uniform
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackSegment, fixed
 from ilmek.units import turn
 
-NEEDLES, LOOPERS, BACKING = "needles", "loopers", "backing"
+NEEDLES, LOOPERS, KNIVES, BACKING = "needles", "loopers", "knives", "backing"
 
 POINTS = 24
 """Points of a motion between its dead centres."""
@@ -23,23 +24,28 @@ POINTS = 24
 
 def cyclogram(machine: TuftingMachine) -> Cyclogram:
     """A stitch: needles over their lowest position, hooks past the needles' line, backing."""
-    angle = np.linspace(0.0, turn, 721)
-    ahead = machine.looper.ahead(angle)
-    ahead[-1] = ahead[0]
-    hooks = CubicSpline(angle, ahead, bc_type="periodic")
-    window, loop, stitch = machine.loop.window, machine.loop, machine.params.advance
-    tracks = (
+    angle, crank = np.linspace(0.0, turn, 721), "looper crank shaft"
+    window, loop, stitch, knife = machine.loop.window, machine.loop, machine.params.advance, machine.knife
+    tracks = [
         Track(NEEDLES, "main shaft", tuple(_swings(machine.loop.geometry.path.rise, ("down", "up")))),
-        Track(LOOPERS, "looper crank shaft", tuple(_swings(hooks, ("back", "forward")))),
+        Track(LOOPERS, crank, tuple(_swings(_closed(angle, machine.looper.ahead(angle)), ("back", "forward")))),
         Track(BACKING, "spiked rollers", (TrackSegment("on", 0.0, turn, 0.0, stitch, uniform.LAW),), revolves=stitch),
-    )
+    ]
+    if knife is not None:
+        height = knife.edge_at(angle).imag
+        tracks.insert(2, Track(KNIVES, crank, tuple(_swings(_closed(angle, height - height.min()), ("down", "up")))))
     turns = int(loop.release // turn - window.out // turn)
     enters, leaves = (Moment(LOOPERS, motion, "past", 0.0) for motion in ("forward", "back"))
     relations = (
         Relation(enters, fixed(window.opened % turn), 0.0, "the loop is open", window.shut - window.opened),
         Relation(leaves, fixed(window.out % turn), 0.0, "the needle is out", window.back - window.out, turns),
     )
-    return Cyclogram("stitch", turn / machine.params.needle.speed, tracks, relations)
+    return Cyclogram("stitch", turn / machine.params.needle.speed, tuple(tracks), relations)
+
+
+def _closed(angle: FloatArray, height: FloatArray) -> CubicSpline:
+    """A periodic curve through heights over a turn, its last as its first."""
+    return CubicSpline(angle, [*height[:-1], height[0]], bc_type="periodic")
 
 
 def _swings(curve: CubicSpline, names: tuple[str, str]) -> Iterator[TrackSegment]:

@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.balance import crank_counterweight, shaking
+from ilmek.dynamics.loads import PointForce
 from ilmek.errors import ParameterError
 from ilmek.linkage.structure import plan
 from ilmek.machines.tufting.design import Tufting
@@ -21,13 +22,21 @@ from ilmek.machines.tufting.params import TuftingParams
 from ilmek.machines.tufting.strength import SHAFTS, needle_strength
 from ilmek.machines.tufting.strength import design as needle_drive
 from ilmek.machines.tufting_machine.feed import TuftingFeed
+from ilmek.machines.tufting_machine.knife import KnifeDrive, knife_drive, knife_parts
+from ilmek.machines.tufting_machine.latches import NeedleLatches, needle_latches
 from ilmek.machines.tufting_machine.loop import Loop, NeedlePath, loop_geometry, loop_window, needle_depth
 from ilmek.machines.tufting_machine.looper import LooperDrive, looper_drive
-from ilmek.machines.tufting_machine.looper_forces import LooperForces, looper_forces, reflected_inertia
+from ilmek.machines.tufting_machine.looper_parts import looper_parts
 from ilmek.machines.tufting_machine.needle_bar import NeedleBar, needle_bar
 from ilmek.machines.tufting_machine.needle_parts import needle_parts
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
+from ilmek.machines.tufting_machine.rocker_forces import (
+    RockerForces,
+    reflected_inertia,
+    rocker_forces,
+    rocker_motion,
+)
 from ilmek.machines.tufting_machine.shafts import SAMPLES, CrankTorques, TuftingShafts, tufting_shafts
 from ilmek.records import computed, group, record, result
 from ilmek.units import format_quantity, turn
@@ -50,8 +59,11 @@ class TuftingMachine:
     loop: Loop = group()
     carpet: TuftedCarpet = group()
     looper: LooperDrive = group()
-    looper_forces: LooperForces = group()
+    looper_forces: RockerForces = group("looper_")
+    knife: KnifeDrive | None = group()
+    knife_forces: RockerForces | None = group("knife_")
     needle_bar: NeedleBar = group()
+    latches: NeedleLatches | None = group()
     shafts: TuftingShafts = group()
     feed: TuftingFeed = group()
     counterweight: float = result("", "counterweight on each crank: mass times radius (kg m)", least=0.0)
@@ -73,6 +85,11 @@ class TuftingMachine:
         "greatest force of the moving masses of a needle drive on the frame, without and with the counterweight",
         lambda it: dict(zip(("without", "with_counterweight"), it.shaking, strict=True)),
     )
+
+    @property
+    def below(self) -> tuple[RockerForces, ...]:
+        """The drives under the bed: of the loopers, and of the knives in cut pile."""
+        return (self.looper_forces, *([self.knife_forces] if self.knife_forces else []))
 
     @property
     def greatest_friction(self) -> float:
@@ -105,10 +122,14 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
     )
     needle, looper = needle_drive(given), looper_drive(params.looper, geometry, window)
     loop = Loop(geometry, window, *looper.passing)
-    moved = looper_forces(params, carpet, looper, loop, lowest)
+    moved, knife, cutting = _below(params, carpet, looper, loop, lowest)
+    below = (moved, cutting) if cutting else (moved,)
     loads = CrankTorques(
-        {"main": _even(needle), "looper": moved.torque[:-1]},
-        {"main": reflected_inertia(needle.state.motion, dict(needle.bodies), given.speed), "looper": moved.inertia},
+        {"main": _even(needle), "looper": np.sum([one.torque[:-1] for one in below], axis=0)},
+        {
+            "main": reflected_inertia(needle.state.motion, dict(needle.bodies), given.speed),
+            "looper": sum(one.inertia for one in below),
+        },
     )
     shafts, needle = _shafts(params, loads, loop.margin, needle)
     return TuftingMachine(
@@ -119,11 +140,37 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
         carpet,
         looper,
         moved,
+        knife,
+        cutting,
         needle_bar(params, mass, needle),
+        needle_latches(params, carpet.needles, path, _on_needle(needle)),
         shafts,
         TuftingFeed(params, carpet, (window.out - path.down(geometry.level)) % turn),
         *_balance(needle),
     )
+
+
+def _below(
+    params: TuftingMachineParams, carpet: TuftedCarpet, looper: LooperDrive, loop: Loop, lowest: float
+) -> tuple[RockerForces, KnifeDrive | None, RockerForces | None]:
+    """The forces of a looper drive, and the knives of cut pile; lowest: height of the needle's lowest point [m].
+
+    Held loops pull their hooks up with both legs; a knife presses on the hook as its loop does on it.
+    """
+    needle, own = params.needle, params.looper
+    shaft = looper.shaft(needle.shaft_distance + needle.needle_distance, lowest + loop.geometry.hook)
+    moves, hooks = rocker_motion(looper.rocker, shaft, 1j * own.arm, needle.speed), carpet.needles / params.drives
+    held = np.mod(moves.angle - loop.catch, turn) < loop.release - loop.catch
+    pulls = [PointForce((looper.rocker.bodies[2], moves.tip), hooks * 2j * own.loop_tension * held)]
+    parts = looper_parts(params, looper, moves.plan.mechanism, carpet.needles)
+    knife = cutting = None
+    if params.pile == "cut":
+        knife = knife_drive(params, looper, moves, carpet.yarn_diameter)
+        made = knife_parts(params, knife, carpet.needles, parts.rocker)
+        on_knives = PointForce((knife.drive.bodies[2], knife.moves.tip), hooks * knife.force)
+        cutting = rocker_forces(knife.moves, made, (on_knives,), own, needle)
+        pulls.append(PointForce((looper.rocker.bodies[2], knife.on_hook), -hooks * knife.force))
+    return rocker_forces(moves, parts, pulls, own, needle), knife, cutting
 
 
 def _require_needles(params: TuftingMachineParams, carpet: TuftedCarpet) -> None:
@@ -186,6 +233,11 @@ def _shafts(
         if enough or params.shafts.diameter or shafts.diameter >= SHAFTS[-1]:
             return shafts, made
         least = math.nextafter(shafts.diameter, math.inf)
+
+
+def _on_needle(needle: Tufting) -> float:
+    """Greatest force of the backing on a needle [N]."""
+    return float(np.max(np.abs(needle.state.friction))) / needle.params.penetration.needles
 
 
 def _even(needle: Tufting) -> FloatArray:

@@ -4,14 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.crank_figures import CRANK, crank_plot
-from ilmek.linkage.solve import solve
 from ilmek.machines.tufting.model import evaluate
 from ilmek.machines.tufting_machine.design import TuftingMachine
-from ilmek.machines.tufting_machine.looper_parts import CRANK as LOOPER_CRANK
-from ilmek.machines.tufting_machine.looper_parts import ROCKER
+from ilmek.machines.tufting_machine.rocker_drive import TIP
+from ilmek.machines.tufting_machine.rocker_forces import RockerForces
 from ilmek.machines.tufting_machine.shafts import SAMPLES
 from ilmek.report import Animation, Axis, Drawing, Figure, Mark, MovingStroke, Plot, Reading, Series, Stroke
 from ilmek.units import mm, turn
@@ -30,11 +29,9 @@ def moving(machine: TuftingMachine) -> Animation:
     """Needle drive and looper drive from the side, over a turn."""
     angle = frames()
     needle = evaluate(machine.needle.params, machine.needle.plan, angle, bodies=machine.needle.bodies)
-    looper = machine.looper_forces
-    motion = solve(
-        looper.plan, {LOOPER_CRANK: angle + machine.looper.offset}, {LOOPER_CRANK: machine.params.needle.speed}
-    )
-    tip, shaft = (motion.point(ROCKER, name).position for name in ("tip", "P"))
+    moves = machine.looper_forces.moves
+    motion = moves.moved(angle, machine.params.needle.speed)
+    tip, shaft = (motion.point(moves.drive.bodies[2], name).position for name in (TIP, "P"))
     hook = np.stack([shaft, tip - machine.looper.sense * 25 * mm, tip], 1)
     height = needle.height + machine.params.needle.shaft_height - machine.lowest
     readings = (
@@ -50,19 +47,26 @@ def moving(machine: TuftingMachine) -> Animation:
         period=turn / machine.params.needle.speed,
         readings=readings,
     )
-    below = animated(
-        motion,
-        angle,
-        Drawing("tufting-looper", "", (), unit="mm"),
-        names={ROCKER: "looper shaft", "A": "A'", "B": "B'"},
-    )
+    below = [_drive_below(forces, angle, machine.params.needle.speed) for forces in machine.below]
     still = replace(
         whole.still,
-        strokes=(*whole.still.strokes, *below.still.strokes),
-        dots=(*whole.still.dots, *below.still.dots),
+        strokes=(*whole.still.strokes, *(stroke for one in below for stroke in one.still.strokes)),
+        dots=(*whole.still.dots, *(dot for one in below for dot in one.still.dots)),
     )
-    strokes = (*whole.strokes, *below.strokes, MovingStroke(hook, "outline", "looper"))
-    return replace(whole, still=still, strokes=strokes, dots=(*whole.dots, *below.dots))
+    strokes = (
+        *whole.strokes,
+        *(stroke for one in below for stroke in one.strokes),
+        MovingStroke(hook, "outline", "looper"),
+    )
+    return replace(whole, still=still, strokes=strokes, dots=(*whole.dots, *(dot for one in below for dot in one.dots)))
+
+
+def _drive_below(forces: RockerForces, angle: FloatArray, speed: float) -> Animation:
+    """A drive of loopers or knives in motion."""
+    drive = forces.moves.drive
+    drawing = Drawing(f"tufting-{drive.name}", "", (), unit="mm")
+    names = {drive.bodies[2]: f"{drive.name} shaft", "A": "A'", "B": "B'"}
+    return animated(forces.moves.moved(angle, speed), angle, drawing, names=names)
 
 
 def _backing(machine: TuftingMachine) -> Stroke:
@@ -81,6 +85,7 @@ def timing(machine: TuftingMachine) -> Plot:
         "backing": np.full(angle.size, geometry.level),
         "hook's upper edge": np.full(angle.size, geometry.hook),
         "hook past the needle's line": machine.looper.ahead(angle),
+        **({"knife over the hook's under edge": machine.knife.over} if machine.knife else {}),
     }
     marks = (
         Mark(loop.window.opened, "loop open"),
@@ -155,7 +160,7 @@ def torques(machine: TuftingMachine) -> Plot:
     series = (
         Series("all drives", angle, np.append(machine.shafts.torque, machine.shafts.torque[0])),
         Series("a needle drive", state.angle, state.main_torque),
-        Series("a looper drive", machine.looper_forces.angle, machine.looper_forces.torque),
+        *(Series(f"a {each.moves.drive.name} drive", each.moves.angle, each.torque) for each in machine.below),
     )
     return Plot("tufting-machine-torques", "Torques of the drives", CRANK, Axis("torque", "N*m"), series)
 

@@ -17,10 +17,10 @@ from ilmek.elements.reducers import DIRECT
 from ilmek.machines.tufting.links import WALL
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import bearing_plate
-from ilmek.machines.tufting_machine.layout import BED, CLEAR, TuftingLayout, looper_bearing
-from ilmek.machines.tufting_machine.looper_parts import BODIES, NAME
+from ilmek.machines.tufting_machine.layout import BED, TuftingLayout
 from ilmek.machines.tufting_machine.needle_parts import DOWN, needle_heights
 from ilmek.machines.tufting_machine.params import SCROLLS, TuftingMachineParams
+from ilmek.machines.tufting_machine.rocker_parts import CLEAR, NAME, looper_bearing
 from ilmek.machines.tufting_machine.scrolls import scroll_parts, scrolls
 from ilmek.part import catalogue
 from ilmek.part.catalogue import reducer_face
@@ -136,21 +136,17 @@ def _end_plate(laid: TuftingLayout) -> Part:
 
 def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
     """Plates beside each looper linkage with the bearings of both shafts, flat on the lower beam."""
-    row = looper_bearing(laid.machine)
+    row = looper_bearing(laid.machine.params.looper)
     radius, hole = row.outer / 2 * (1 + 2 * WALL), row.outer / 2
-    shafts = laid.crank_shaft, laid.shaft
-    ends = [complex(at.real, laid.low + radius) for at in shafts]
+    shafts = laid.crank_shaft, laid.shaft, *laid.knives
+    ends = [complex(at.real, laid.low + radius) for at in shafts[:2]]
     holes = tuple(circle(at, hole) for at in shafts)
     shape = Prism(Profile(rounded_hull(np.array([*shafts, *ends]), radius), holes), row.width)
-    seats = {name: Seat(placement(at.real, at.imag), row.outer) for name, at in zip("QP", shafts, strict=True)}
+    seats = {name: Seat(placement(at.real, at.imag), row.outer) for name, at in zip("QPK", shafts, strict=False)}
     name, title = f"{NAME}/looper-plate", "bearing plate of the loopers"
     plate = Part(name, title, "laser-cut part", shape, STEEL, seats=seats, machined=True, joins=(BEAMS,))
-    parts = laid.machine.looper_forces.parts
-    low, high = (height - parts.level for height in parts.linkage.levels.across(list(BODIES)))
-    drives = range(laid.machine.params.drives)
-    heights = [
-        laid.middle(drive) + side for drive in drives for side in (low - CLEAR / 2 - row.width, high + CLEAR / 2)
-    ]
+    half, drives = laid.machine.looper_forces.parts.rocker.half, range(laid.machine.params.drives)
+    heights = [laid.middle(drive) + side for drive in drives for side in (-half - row.width, half)]
     bearing = catalogue.bearing(f"{NAME}/looper-bearing", "bearing of the loopers", row)
     yield Occurrence(plate, tuple(placement(z=height) for height in heights))
     yield Occurrence(bearing, tuple(placement(at.real, at.imag, z) for z in heights for at in shafts))

@@ -8,17 +8,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
-from ilmek.linkage.model import GROUND
 from ilmek.machines.tufting.links import WALL, eccentric_radius, mechanism_depth, needle_parts
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting_machine.design import TuftingMachine
-from ilmek.machines.tufting_machine.looper_parts import CRANK, ROCKER
+from ilmek.machines.tufting_machine.rocker_parts import CLEAR, looper_bearing
 from ilmek.records import record
 from ilmek.units import mm
-
-CLEAR = 10 * mm
-"""Clearance of what moves from the frame; assumed by this project."""
 
 BEYOND = 60 * mm
 """From the outermost needle to an end plate; assumed by this project."""
@@ -33,7 +28,7 @@ class TuftingLayout:
 
     planes       least and greatest height of the first needle drive along z      left  first end of the tufted width
     behind       face of the head's beam, along x                               low  top of the loopers' beam
-    crank_shaft, shaft  of the loopers
+    crank_shaft, shaft  of the loopers             knives  shaft of the knives of cut pile, if any
     rear, front  axes of the spiked rollers along x
     """
 
@@ -44,6 +39,7 @@ class TuftingLayout:
     low: float
     crank_shaft: complex
     shaft: complex
+    knives: tuple[complex, ...]
     rear: float
     front: float
 
@@ -95,19 +91,20 @@ def layout(machine: TuftingMachine) -> TuftingLayout:
     """Where the parts of a machine are."""
     params, needle, sizes = machine.params, machine.needle.params, needle_sizes(machine.needle)
     planes = mechanism_depth(needle, sizes)
-    points = machine.looper_forces.plan.mechanism.body(GROUND).points
+    looper = machine.looper_forces.moves
     head = needle.crank + eccentric_radius(needle.crank, sizes.main) * (1 + 2 * WALL)
-    around, looper = ring_radius(machine), machine.looper.lengths["crank"]
+    around, crank = ring_radius(machine), looper.drive.lengths["crank"]
     line, roller = needle.shaft_distance + needle.needle_distance, params.feed.spiked_roller / 2
-    links = min(points["Q"].real - looper - around, _reached(machine).real)
+    links = min(looper.crank_shaft.real - crank - around, _reached(machine).real)
     return TuftingLayout(
         machine,
         planes,
         sum(planes) / 2 - params.width / params.drives / 2,
         -head - CLEAR,
         _reached(machine).imag - CLEAR,
-        points["Q"],
-        points["P"],
+        looper.crank_shaft,
+        looper.shaft,
+        (machine.knife.moves.shaft,) if machine.knife else (),
         min(links, line - BED) - roller - CLEAR,
         line + BED + roller + CLEAR,
     )
@@ -115,26 +112,18 @@ def layout(machine: TuftingMachine) -> TuftingLayout:
 
 def ring_radius(machine: TuftingMachine) -> float:
     """Radius of the coupler's ring about the looper's eccentric [m]."""
-    return eccentric_radius(machine.looper.lengths["crank"], machine.params.looper.shaft) * (1 + 2 * WALL)
+    return eccentric_radius(machine.looper.rocker.lengths["crank"], machine.params.looper.shaft) * (1 + 2 * WALL)
 
 
 def _reached(machine: TuftingMachine) -> complex:
     """Least x and least y that looper links and the walls about their shafts' bearings reach [m]."""
-    motion, width = machine.looper_forces.motion, machine.params.looper.link_width
-    wall = looper_bearing(machine).outer / 2 * (1 + 2 * WALL)
-    shafts = machine.looper_forces.plan.mechanism.body(GROUND).points
+    moves, width = machine.looper_forces.moves, machine.params.looper.link_width
+    wall, (crank, _, rocker) = looper_bearing(machine.params.looper).outer / 2 * (1 + 2 * WALL), moves.drive.bodies
     reaches = (
-        (motion.point(CRANK, "A").position, ring_radius(machine)),
-        (motion.point(ROCKER, "B").position, width / 2),
-        *((np.array([shafts[name]]), wall) for name in "QP"),
+        (moves.motion.point(crank, "A").position, ring_radius(machine)),
+        (moves.motion.point(rocker, "B").position, width / 2),
+        *((np.array([at]), wall) for at in (moves.crank_shaft, moves.shaft)),
     )
     low = (complex(float(np.min(at.real)) - reach, float(np.min(at.imag)) - reach) for at, reach in reaches)
     corners = np.array(list(low))
     return complex(float(np.min(corners.real)), float(np.min(corners.imag)))
-
-
-def looper_bearing(machine: TuftingMachine) -> RollingBearing:
-    """The lightest deep-groove ball bearing on the looper shafts."""
-    bore = machine.params.looper.shaft
-    rows = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
-    return min(rows, key=lambda row: (row.bore < bore * (1 - 1e-9), row.bore, row.mass))

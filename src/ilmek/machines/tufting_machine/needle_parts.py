@@ -7,7 +7,8 @@ import numpy as np
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.machines.tufting.links import STEEL
-from ilmek.machines.tufting_machine.params import TuftingMachineParams
+from ilmek.machines.tufting_machine.latches import latch_part
+from ilmek.machines.tufting_machine.params import BY_NEEDLE, TuftingMachineParams
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
@@ -28,7 +29,7 @@ DOWN = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 @record
 class NeedleParts:
     """A push rod from E to the bar, downwards from its origin; a piece of the bar along z, its upper side at y = 0; a
-    needle from the underside of the bar, downwards.
+    needle from the underside of the bar, downwards; the latch of a needle that is selected.
 
     pieces  of the needle bar, and the drives on each
     """
@@ -36,11 +37,13 @@ class NeedleParts:
     rod: Part
     bar: Part
     needle: Part
+    latch: Part | None
     pieces: int
 
     def mass(self, needles: int, drives: int) -> float:
         """Mass of all of them [kg]."""
-        return self.pieces * self.bar.mass + needles * self.needle.mass + drives * self.rod.mass
+        each = self.needle.mass + (self.latch.mass if self.latch else 0.0)
+        return self.pieces * self.bar.mass + needles * each + drives * self.rod.mass
 
 
 def needle_parts(params: TuftingMachineParams) -> NeedleParts:
@@ -69,6 +72,7 @@ def needle_parts(params: TuftingMachineParams) -> NeedleParts:
         ),
         Part(NEEDLE_BAR, "needle bar", "machined link", Sum((shape,)), material),
         _needle(params),
+        latch_part(params),
         pieces,
     )
 
@@ -84,7 +88,8 @@ def _needle(params: TuftingMachineParams) -> Part:
     corners = np.array([-half, half, half - 1j * (long - taper), -1j * long, -half - 1j * (long - taper)])
     thick = params.looper.needle
     blade = Placed(Prism(Profile(polygon(corners)), thick), (placement(z=-thick / 2),))
-    held = "its shank in the needle bar, with a set screw"
+    slides = params.pattern.selection == BY_NEEDLE
+    held = "its shank in the needle bar, with " + ("its latch" if slides else "a set screw")
     return Part(NEEDLE, "tufting needle", "machined link", Sum((blade,)), STEEL, envelope=True, fixing=held)
 
 

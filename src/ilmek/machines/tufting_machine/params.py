@@ -8,7 +8,7 @@ from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.params import Params, kind, nested
-from ilmek.units import deg, format_quantity, g, inch, m, mm, turn
+from ilmek.units import MPa, deg, format_quantity, g, inch, m, mm, turn
 from ilmek.weaving.tufting.programme import TuftGrid
 
 PILES = ("loop", "cut")
@@ -38,7 +38,7 @@ class TuftingPatternParams(Params):
         "each tuft the one of its colour alone",
     )
     hidden: float = kind.length(0.0, at_least=0.0, at_most=30 * mm, doc="height of loops that are not to be seen")
-    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls of a module, which is wired as one axis")
+    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls or latches of a module, wired as one axis")
     threading: float = kind.time(20.0, at_least=0.0, at_most=3600.0, doc="threading of a needle from its cone")
 
 
@@ -164,10 +164,7 @@ class LooperParams(Params):
     loop_tension: float = kind.force(
         0.3, at_least=0.0, at_most=100.0, doc="tension of the yarn in each leg of a held loop"
     )
-    cut: float = kind.force(
-        2.0, at_least=0.0, at_most=1e3, doc="force of a knife on its hook, near the forward end, in cut pile"
-    )
-    strength: StrengthParams = nested(StrengthParams, doc="what the looper's links and pins bear")
+    strength: StrengthParams = nested(StrengthParams, doc="what the links and pins of loopers and knives bear")
 
     @property
     def pin_diameter(self) -> float:
@@ -181,6 +178,31 @@ class LooperParams(Params):
 
 
 @dataclass(frozen=True, slots=True)
+class KnifeParams(Params):
+    """Knives of cut pile, one on each hook; links, pins and shafts are as the looper's.
+
+    Sizes assumed by this project.
+    """
+
+    width: float = kind.length(5 * mm, at_least=0.5 * mm, at_most=50 * mm, doc="width of the edge, along the hook")
+    thickness: float = kind.length(0.8 * mm, at_least=0.1 * mm, at_most=10 * mm, doc="thickness, along the shafts")
+    gap: float = kind.length(0.05 * mm, at_least=0.0, at_most=1 * mm, doc="between the knife and its hook")
+    overlap: float = kind.length(
+        1.5 * mm, above=0.0, at_most=20 * mm, doc="edge over the hook's under edge where it is highest"
+    )
+    under: float = kind.length(2 * mm, above=0.0, at_most=50 * mm, doc="edge under the loops where it is lowest")
+    beside: float = kind.length(
+        2 * mm, at_least=0.0, at_most=20 * mm, doc="knife behind the hook's point and before its stem, at least"
+    )
+    distance: float = kind.length(
+        110 * mm, at_least=20 * mm, at_most=1.0, doc="knife shaft before the needles' line, forward"
+    )
+    depth: float = kind.length(50 * mm, at_least=5 * mm, at_most=0.5, doc="knife shaft under the hook's upper edge")
+    bar: float = kind.length(16 * mm, at_least=2 * mm, at_most=0.2, doc="side of the square bar that carries knives")
+    force: float = kind.force(2.0, at_least=0.0, at_most=1e3, doc="force of a knife against the loop that it cuts")
+
+
+@dataclass(frozen=True, slots=True)
 class NeedleBarParams(Params):
     """The bar that carries the needles; sizes assumed by this project."""
 
@@ -191,6 +213,11 @@ class NeedleBarParams(Params):
     rod: float = kind.length(20 * mm, at_least=3 * mm, at_most=0.2, doc="diameter of a push rod")
     joint: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.1, doc="gap of its pieces, with a phase of the drives")
     bow: float = kind.length(0.1 * mm, at_least=1e-6, at_most=0.1, doc="allowed deflection of the needle bar")
+    bolt: float = kind.length(
+        1.5 * mm, at_least=0.1 * mm, at_most=10 * mm, doc="way of a latch into its needle, where needles are selected"
+    )
+    notch: float = kind.length(0.3 * mm, above=0.0, at_most=5 * mm, doc="play of a latch in the notch of its needle")
+    latch_shear: float = kind.pressure(60 * MPa, at_least=0.1 * MPa, at_most=1e10, doc="allowed shear of a latch")
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,6 +262,7 @@ class TuftingMachineParams(TuftedCarpetParams):
 
     needle: TuftingParams = nested(TuftingParams, doc="a needle drive; what follows from the machine is not set here")
     looper: LooperParams = nested(LooperParams, doc="looper, its place beside the needle, its linkage")
+    knife: KnifeParams = nested(KnifeParams, doc="knives of cut pile")
     needle_bar: NeedleBarParams = nested(NeedleBarParams, doc="the bar that carries the needles")
     shafts: TuftingShaftParams = nested(TuftingShaftParams, doc="shafts along the width")
     feed: TuftingFeedParams = nested(TuftingFeedParams, doc="rollers of yarn and backing")

@@ -40,11 +40,11 @@ class TuftingPrice:
 
 
 def _wired(cost: MachineCost, machine: TuftingMachine) -> MachineCost:
-    """The cost with the scrolls wired by modules."""
-    pattern, scrolls = machine.params.pattern, machine.feed.yarn_shafts
-    if pattern.attachment != SCROLLS:
-        return cost
-    axes = cost.axes - scrolls + math.ceil(scrolls / pattern.module)
+    """The cost with scrolls and latches wired by modules."""
+    pattern = machine.params.pattern
+    scrolls = machine.feed.yarn_shafts if pattern.attachment == SCROLLS else 0
+    latches = machine.carpet.needles if machine.latches else 0
+    axes = cost.axes - sum(one - math.ceil(one / pattern.module) for one in (scrolls, latches))
     return replace(cost, fitting=cost.fitting._replace(axes=axes))
 
 

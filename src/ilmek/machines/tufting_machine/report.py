@@ -10,10 +10,11 @@ from ilmek.machines.tufting import report as needle_report
 from ilmek.machines.tufting.tree import design_pitch
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.frame import presser_thickness
-from ilmek.machines.tufting_machine.layout import CLEAR, looper_bearing
-from ilmek.machines.tufting_machine.looper_parts import NAME, ROCKER
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
 from ilmek.machines.tufting_machine.price import tufting_price
+from ilmek.machines.tufting_machine.rocker_drive import TIP
+from ilmek.machines.tufting_machine.rocker_forces import RockerForces
+from ilmek.machines.tufting_machine.rocker_parts import CLEAR, NAME, looper_bearing
 from ilmek.machines.tufting_machine.shafts import MAIN_SHAFT
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, reason_json
@@ -40,8 +41,10 @@ def checks(machine: TuftingMachine) -> tuple[Check, ...]:
     return (
         *machine.loop.checks,
         *machine.looper.checks,
-        *machine.looper_forces.checks,
+        *(machine.knife.checks if machine.knife else ()),
+        *(check for forces in machine.below for check in forces.checks),
         *machine.needle_bar.checks,
+        *(machine.latches.checks if machine.latches else ()),
         *machine.shafts.checks,
         *machine.feed.checks,
         *_room_checks(machine),
@@ -58,7 +61,7 @@ def _room_checks(machine: TuftingMachine) -> tuple[Check, ...]:
     params = machine.params
     pitch, over = params.width / params.drives, machine.loop.depth + presser_thickness(params) + CLEAR / 2
     life, limits = looper_bearing_life(machine), params.needle.strength
-    row = looper_bearing(machine)
+    row = looper_bearing(params.looper)
     return (
         at_least("life of the loopers' bearings", life, limits.bearing_life, "h", f"ISO 281, {row.name}").with_cure(
             "set a larger looper.shaft", f"{NAME}/looper-bearing"
@@ -77,24 +80,31 @@ def _room_checks(machine: TuftingMachine) -> tuple[Check, ...]:
 
 
 def looper_bearing_life(machine: TuftingMachine) -> float:
-    """Least life of the bearings of both looper shafts [s of running]; each of the two of a shaft bears half."""
-    forces, row = machine.looper_forces, looper_bearing(machine)
-    duties = (pin_duty(forces.forces, name, forces.angle / machine.params.needle.speed) for name in "QP")
+    """Least life of the bearings of all shafts below [s of running]; each of the two of a shaft bears half."""
+    row, speed = looper_bearing(machine.params.looper), machine.params.needle.speed
+    duties = (pin_duty(forces.forces, name, forces.moves.angle / speed) for forces in machine.below for name in "QP")
     return min(bearing_life(replace(duty, force=duty.force / 2), row) for duty in duties)
 
 
 def self_tests(machine: TuftingMachine) -> tuple[Check, ...]:
     """The balance of the looper's power; the hook's path by the linkage against that of its synthesis."""
     forces = machine.looper_forces
-    motion, drive, needle = forces.motion, machine.looper, machine.params.needle
-    across = motion.point(ROCKER, "tip").position.real - needle.shaft_distance - needle.needle_distance
-    apart = float(np.max(np.abs(drive.sense * across - drive.ahead(forces.angle))))
+    moves, drive, needle = forces.moves, machine.looper, machine.params.needle
+    across = (
+        moves.motion.point(moves.drive.bodies[2], TIP).position.real - needle.shaft_distance - needle.needle_distance
+    )
+    apart = float(np.max(np.abs(drive.sense * across - drive.ahead(moves.angle))))
     own = (replace(test, name=f"needle drive: {test.name}") for test in needle_report.self_tests(_drive(machine)))
     return (
         *own,
-        at_most("power balance of the looper's forces", forces.forces.power_error, BALANCE, "1", "virtual power"),
+        *(_power_test(forces) for forces in machine.below),
         at_most("hook's path by its linkage and by its synthesis", apart, BALANCE, "mm", "two solvers"),
     )
+
+
+def _power_test(forces: RockerForces) -> Check:
+    name = f"power balance of the {forces.moves.drive.name}'s forces"
+    return at_most(name, forces.forces.power_error, BALANCE, "1", "virtual power")
 
 
 def tables(machine: TuftingMachine) -> tuple[Table, ...]:
@@ -110,5 +120,9 @@ def tables(machine: TuftingMachine) -> tuple[Table, ...]:
         timing,
         tufting_price(machine).table,
         *needle_report.tables(_drive(machine)),
-        *strength_table(machine.looper_forces.strength, "tufting-machine-looper"),
+        *(
+            table
+            for forces in machine.below
+            for table in strength_table(forces.strength, f"tufting-machine-{forces.moves.drive.name}")
+        ),
     )

@@ -12,8 +12,8 @@ import numpy as np
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.tufting_machine.feed import SCROLL_DIAMETER, YARN_ROLLER, scroll_motor
 from ilmek.machines.tufting_machine.layout import BED, TuftingLayout
-from ilmek.machines.tufting_machine.looper_parts import NAME
 from ilmek.machines.tufting_machine.needle_parts import needle_heights
+from ilmek.machines.tufting_machine.rocker_parts import NAME
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement

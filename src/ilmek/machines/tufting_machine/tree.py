@@ -14,7 +14,6 @@ from ilmek.elements.belts import BELTS
 from ilmek.elements.motors import Motor
 from ilmek.elements.reducers import DIRECT, Reducer
 from ilmek.linkage.model import GROUND
-from ilmek.linkage.solve import solve
 from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
 from ilmek.machines.tufting.links import needle_parts as drive_parts
 from ilmek.machines.tufting.strength import needle_sizes
@@ -30,16 +29,18 @@ from ilmek.machines.tufting_machine.frame import (
     roller_axes,
     scroll_height,
 )
-from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
-from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
+from ilmek.machines.tufting_machine.latches import latch_places
+from ilmek.machines.tufting_machine.layout import TuftingLayout, layout
 from ilmek.machines.tufting_machine.needle_parts import DOWN, NEEDLE_BAR, needle_heights, needle_parts
 from ilmek.machines.tufting_machine.params import SCROLLS
+from ilmek.machines.tufting_machine.rocker_forces import RockerForces
+from ilmek.machines.tufting_machine.rocker_parts import CLEAR, NAME
 from ilmek.machines.tufting_machine.scrolls import scroll_bodies
 from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
 from ilmek.part import catalogue
 from ilmek.part.flat_link import eyed_link
 from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Drilling, Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
@@ -112,12 +113,20 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
         rods = [laid.needle_level + drive * laid.pitch - laid.left - low - inset for drive in range(params.drives)]
         pattern = tuple(round(z, 9) for z in rods if 0 < z < length)
         bored = bars_by_bores.setdefault(pattern, _bored_bar(machine, pattern, len(bars_by_bores)))
-        parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under))
+        parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under), *_latches(machine, own, low))
         at = placement(y=-_rod_length(machine), z=laid.left)
         name = NEEDLE_BAR if made.pieces == 1 else f"{NEEDLE_BAR} {piece + 1}"
         bodies.append(RigidBody(name, parts, names[piece], positions=(at,)))
     bars = () if made.pieces > 1 else tuple(Closure(JointKind.FIXED, (NEEDLE_BAR, name)) for name in names[1:])
     return Tree(tuple(bodies), drives.closures), bars
+
+
+def _latches(machine: TuftingMachine, own: tuple[Placement, ...], low: float) -> Iterator[Occurrence]:
+    """The latches of needles on their piece of the bar, which begins at a height [m]."""
+    part = needle_parts(machine.params).latch
+    if part is not None:
+        heights = tuple(placement(z=float(place.origin[2]) - low) for place in own)
+        yield Occurrence(part, latch_places(machine.params, heights))
 
 
 def catalogue_length(part: Part) -> float:
@@ -165,7 +174,7 @@ def _bored_bar(machine: TuftingMachine, rods: tuple[float, ...], before: int) ->
 
 def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     """The loopers' crank shaft with its pulley, and the looper drives on it and on their shafts."""
-    machine, forces = laid.machine, laid.machine.looper_forces
+    machine = laid.machine
     (first, last), diameter = laid.ends, machine.params.looper.shaft
     end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
     shaft = Part(
@@ -180,17 +189,26 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     turned = Joint(JointKind.PIN, motion=SceneMotion(TURN, angle, np.zeros((POSES, 3)), angle))
     cranks = RigidBody(LOOPER_CRANKS, parts, FRAME, turned, (placement(at.real, at.imag),))
     bodies, loops = [cranks], list[Closure]()
-    for drive in range(machine.params.drives):
-        suffix, lag = f" {drive + 1}", drive * machine.params.needle.phase
-        motion = solve(
-            forces.plan, {CRANK: angle + machine.looper.offset - lag}, {CRANK: machine.params.needle.speed}
-        ).require()
-        z = laid.middle(drive) - forces.parts.level
-        own = linkage_bodies(forces.parts.linkage, motion, {ROCKER: forces.parts.carried(drive)}, z=z, suffix=suffix)
-        crank = body_id(NAME, CRANK) + suffix
-        bodies += (keyed(body, cranks) if body.id == crank else body for body in own)
-        loops += linkage_closures(NAME, motion.plan.mechanism, suffix)
+    for number in range(machine.params.drives):
+        for forces in machine.below:
+            own, closed = _swung(forces, number, laid, cranks)
+            bodies += own
+            loops += closed
     return bodies, loops
+
+
+def _swung(
+    forces: RockerForces, number: int, laid: TuftingLayout, cranks: RigidBody
+) -> tuple[list[RigidBody], tuple[Closure, ...]]:
+    """A drive of loopers or knives, counted from 0, on their crank shaft."""
+    suffix, made, needle = f" {number + 1}", forces.parts.rocker, laid.machine.params.needle
+    motion = forces.moves.moved(np.linspace(0.0, turn, POSES) - number * needle.phase, needle.speed)
+    crank = body_id(NAME, forces.moves.drive.bodies[0]) + suffix
+    carried = {forces.moves.drive.bodies[2]: forces.parts.carried(number)}
+    z = laid.middle(number) + made.aside - made.level
+    own = linkage_bodies(made.linkage, motion, carried, z=z, suffix=suffix)
+    bodies = [keyed(body, cranks) if body.id == crank else body for body in own]
+    return bodies, linkage_closures(NAME, motion.plan.mechanism, suffix)
 
 
 def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:

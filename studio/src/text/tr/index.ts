@@ -10,6 +10,7 @@ import linkage from "./linkage";
 import loom from "./loom";
 import machine from "./machine";
 import project from "./project";
+import study from "./study";
 import synthesis from "./synthesis";
 import ui from "./ui";
 
@@ -23,6 +24,7 @@ export const tr: Translation = {
   loom,
   machine,
   project,
+  study,
   synthesis,
   ui,
 };

@@ -7,15 +7,17 @@ import type { Editor } from "./editor";
 import { Entries } from "./entries";
 import { Motion, MotionFacts } from "./motion";
 import { Selected } from "./selected";
+import { LinkageStudy } from "./study";
 
-type Panel = "structure" | "parts" | "motion" | "checks";
+type Panel = "structure" | "parts" | "motion" | "checks" | "study";
 
 export function Panels({ editor }: { editor: Editor }) {
   const [panel, setPanel] = useState<Panel>("structure");
-  const tabs = (["structure", "parts", "motion", "checks"] as const).map((value) => ({
-    value,
-    label: t(`linkage.${value}`),
-  }));
+  const values = Object.keys(editor.document.data.value?.["values"] ?? {});
+  const tabs: { value: Panel; label: string }[] = (["structure", "parts", "motion", "checks"] as const).map(
+    (value) => ({ value, label: t(`linkage.${value}`) }),
+  );
+  if (values.length > 0) tabs.push({ value: "study", label: t("study.title") });
   return (
     <div class="linkage-panels">
       <Selected editor={editor} />
@@ -25,6 +27,7 @@ export function Panels({ editor }: { editor: Editor }) {
         {panel === "parts" && <Parts editor={editor} />}
         {panel === "motion" && <Motion editor={editor} />}
         {panel === "checks" && <Checks editor={editor} />}
+        {panel === "study" && values.length > 0 && <LinkageStudy editor={editor} />}
       </Tabs>
     </div>
   );

@@ -4,6 +4,7 @@ import { Tabs } from "../../ui";
 import { Compare } from "./compare";
 import { Figures } from "./figures";
 import type { MachineModel } from "./model";
+import { MachineStudy } from "./study";
 import { DesignTables } from "./tables";
 import { Judgement } from "./verdict";
 
@@ -20,6 +21,7 @@ export function Outcome({ model, tab, onTab }: OutcomeProps) {
     { value: "results", label: t("machine.results") },
     { value: "tables", label: t("machine.tables") },
     { value: "compare", label: t("machine.comparison") },
+    { value: "study", label: t("study.title") },
     { value: "choices", label: t("machine.choices") },
   ];
   return (
@@ -31,6 +33,9 @@ export function Outcome({ model, tab, onTab }: OutcomeProps) {
           {tab === "results" && <ResultTable results={view.results} />}
           {tab === "tables" && <DesignTables model={model} />}
           {tab === "compare" && <Compare model={model} />}
+          <div hidden={tab !== "study"}>
+            <MachineStudy model={model} shown={tab === "study"} />
+          </div>
           {tab === "choices" && <Choices warnings={view.warnings} choices={view.choices} />}
         </Tabs>
       )}

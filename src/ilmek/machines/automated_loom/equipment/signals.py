@@ -119,6 +119,7 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "TieStart": (CONTROLLER, *_KNOT),
     "TieColumn": (CONTROLLER, CARRIAGE_MOTOR),
     "TieTube": (CONTROLLER, *_TUBE),
+    "TieAside": (CONTROLLER, *_KNOT),
     "EndStart": (CONTROLLER, *_ROW),
     "EndCode": (CONTROLLER, *_BEAT),
     "JogStart": (CONTROLLER,),
@@ -136,7 +137,7 @@ OF_WEAVERS = ("HandsOnButtons", "GridFree")
 OF_HEADS = ("HeadsClear", "DoorClosed")
 """Signals that only a loom with heads has, beside those of each head."""
 
-PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieStatus", "TieStart", "TieColumn", "TieTube"))
+PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieStatus", "TieStart", "TieColumn", "TieTube", "TieAside"))
 """Signals of which each head has its own."""
 
 

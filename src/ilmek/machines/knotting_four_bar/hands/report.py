@@ -2,10 +2,12 @@
 
 import math
 
+from ilmek.machines.knotting_four_bar.hands.beside import kinds_table
 from ilmek.machines.knotting_four_bar.hands.design import TyingHands
 from ilmek.machines.knotting_four_bar.hands.hand import TyingHand
-from ilmek.machines.knotting_four_bar.hands.parts import NAME, SERVO, HandParts
+from ilmek.machines.knotting_four_bar.hands.parts import NAME, SERVO, HandParts, hands_tree
 from ilmek.machines.own_linkage.report import construction_checks
+from ilmek.part.bill import bill
 from ilmek.report import Check, Table, at_least, at_most, columns, must
 
 BALANCE = 1e-9
@@ -92,7 +94,10 @@ def tables(hands: TyingHands) -> tuple[Table, ...]:
         for plane in hands.planes
     )
     searched = Table("knotting-searched", "Planes searched", heads, rows)
-    return (searched, *(() if hands.made is None else (_hand_table(hands.made.hand),)))
+    if hands.made is None:
+        return (searched,)
+    parts = bill(hands_tree(hands.made, hands.servo))
+    return searched, _hand_table(hands.made.hand), kinds_table(hands.params, hands.made.knot_time, parts)
 
 
 def _hand_table(hand: TyingHand) -> Table:
