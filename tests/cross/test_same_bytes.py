@@ -11,7 +11,7 @@ MADE = """
 import hashlib, json, sys
 from contextlib import nullcontext
 from pathlib import Path
-from default_machines import SETTLED, out_of_space
+from default_machines import SETTLED_OPTIONS, out_of_space
 from ilmek.cli import main
 from effort import number, some
 from ilmek.machines.catalogue import MACHINES
@@ -23,7 +23,6 @@ def reported(machine):  # without figures and parts in space: those of the files
     return machine.report(machine.design(machine.params.read({})), illustrated=False, assembled=False).as_json()
 
 machines = [*MACHINES][number(1, 0) :]  # the loom is that of the carpet below; its own choice of a beat in a campaign
-settled = [word for item in SETTLED.items() for word in ("--loom", "=".join(item))]
 made = {name: digest(json.dumps(reported(MACHINES[name])).encode()) for name in some(machines, 5)}
 for call in (
     "design cam --workshop cam",
@@ -32,7 +31,7 @@ for call in (
 ):
     try:
         with number(out_of_space, nullcontext)():  # parts in space, which no thread compares: in a campaign
-            main([*call.split(), *(settled if call.startswith("weave") else ())])
+            main([*call.split(), *(SETTLED_OPTIONS if call.startswith("weave") else ())])
     except SystemExit as end:
         assert not end.code, end.code
 for file in sorted(path for folder in ("cam", "chart", "carpet") for path in Path(folder).iterdir()):

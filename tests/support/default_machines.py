@@ -18,6 +18,9 @@ from ilmek.viz.page import machine_page
 SETTLED = {"knotting": "cams", "knot_cycle": "1.8s", "weft": "rapier"}
 """Settings of a loom for tests that are not of its choice: what is left open, heads and beat, takes a tenth of it."""
 
+SETTLED_OPTIONS = tuple(word for one in SETTLED.items() for word in ("--loom", "=".join(one)))
+"""The same for `ilmek weave`."""
+
 
 @cache
 def default_design(machine: str) -> Any:

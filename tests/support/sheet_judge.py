@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import ezdxf
 import numpy as np
+from ezdxf.document import Drawing
 from OCP.Bnd import Bnd_Box
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepBndLib import BRepBndLib
@@ -54,10 +55,11 @@ class Bore(NamedTuple):
 
 
 class ReadSheet(NamedTuple):
-    """What ezdxf reads: dimensions by type, whether upright, and value [mm]; all texts."""
+    """What ezdxf reads: dimensions by type, whether upright, and value [mm]; all texts; all of the file."""
 
     dimensions: tuple[tuple[int, bool, float], ...]
     texts: tuple[str, ...]
+    document: Drawing
 
     def has(self, size: float, *kinds: int) -> bool:
         """Whether a size stands there as a dimension."""
@@ -85,11 +87,13 @@ def drawn_sheet(part: DrawnPart) -> DrawingSheet:
 def read(sheet: DrawingSheet, path: Path) -> ReadSheet:
     """A sheet, written to a file and read."""
     write_sheet_dxf(path, sheet)
-    space = ezdxf.readfile(path).modelspace()
+    document = ezdxf.readfile(path)
+    space = document.modelspace()
     dimensions = [(own, own.dxf.get("angle", 0.0) == 90.0) for own in space.query("DIMENSION")]
     return ReadSheet(
         tuple((own.dimtype, upright or _is_upright(own), own.dxf.actual_measurement) for own, upright in dimensions),
         tuple(text.dxf.text for text in space.query("TEXT")) + tuple(own.dxf.text for own, _ in dimensions),
+        document,
     )
 
 

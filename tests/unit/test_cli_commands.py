@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import SETTLED_OPTIONS
 from PIL import Image
 
 from ilmek.cli import main
@@ -22,7 +23,7 @@ from ilmek.machines.catalogue import MACHINES
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm")
-LOOM = (*SMALL, "--heads", "1")
+LOOM = (*SMALL, "--heads", "1", *SETTLED_OPTIONS)
 """One loom for all tests of `weave` that ask for no other: it is designed once."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
@@ -154,7 +155,7 @@ def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_deadline_finds_the_heads(tmp_path: Path) -> None:
     carpet = ("weave", MEDALLION, "--size", "120x60cm", "--quality", "15x15/dm", "--loom", "beat=comb")
-    found = data(*carpet, "--deadline", "5h", "--out", str(tmp_path / "out"))
+    found = data(*carpet, *SETTLED_OPTIONS, "--deadline", "5h", "--out", str(tmp_path / "out"))
     assert found["weaving_time"] <= 5 * 3600
     assert found["heads"] > 1
     last = next(check for check in found["checks"] if check["name"] == "weaving time")
@@ -164,7 +165,7 @@ def test_deadline_finds_the_heads(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_fine_pitch_weaves_a_fine_quality(tmp_path: Path) -> None:
     found = data("weave", MEDALLION, "--size", "30x20cm", "--quality", "40x40/dm", "--warp-pitch", "1.25mm",
-                 "--loom", "beat=comb", "--out", str(tmp_path / "out"))  # fmt: skip
+                 *SETTLED_OPTIONS, "--loom", "beat=comb", "--out", str(tmp_path / "out"))  # fmt: skip
     assert found["warp_pitch"] == 0.00125
     assert found["columns"] == 120
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from default_machines import SETTLED
 
 from ilmek.errors import CarpetError, LoomError, ParameterError, YarnError
 from ilmek.io.chart.formats import FORMATS
@@ -25,7 +26,7 @@ from ilmek.report import Report
 from ilmek.report.left_out import SWITCH
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
-COMB = {"beat": "comb"}
+COMB = {**SETTLED, "beat": "comb"}
 """Of looms in whose tests no choice of a beat is claimed."""
 
 

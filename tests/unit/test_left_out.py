@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from default_machines import default_page
+from default_machines import SETTLED, default_page
 
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.cli import main
@@ -107,8 +107,8 @@ def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
 
 def test_the_scaling_of_the_largest_carpets_is_drawn() -> None:
     settings = {"width": "4m", "length": "8m", "knots_across": "250/dm", "knots_along": "250/dm", "beat": "comb"}
-    loom = MACHINE.design(MACHINE.params.read(settings))
+    loom = MACHINE.design(MACHINE.params.read(SETTLED | settings))
     assert 0.9 * MOST_KNOTS < loom.rows * loom.columns <= MOST_KNOTS
     assert len(time_against_pitch(loom).series) == 3
     narrow = {"width": "2cm", "length": "50m", "knots_across": "500/dm", "knots_along": "500/dm", "beat": "comb"}
-    assert len(time_of_one_knotter(MACHINE.design(MACHINE.params.read(narrow))).series[0].x) == 33
+    assert len(time_of_one_knotter(MACHINE.design(MACHINE.params.read(SETTLED | narrow))).series[0].x) == 33

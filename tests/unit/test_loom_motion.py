@@ -133,6 +133,7 @@ def test_a_head_with_arms_has_no_views_of_grippers() -> None:
 
 
 @pytest.mark.usefixtures("not_in_space")
+@pytest.mark.usefixtures("not_in_space")
 def test_a_motion_is_written_by_its_name(tmp_path: Path) -> None:
     target = tmp_path / "knot.gif"
     settings = [f"{name}={value}" for name, value in {**SETTLED, "beat": "comb"}.items()]

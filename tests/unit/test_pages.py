@@ -17,17 +17,12 @@ def _is_executed(block: Block) -> bool:
 
 
 SLOW = {
-    *(
-        "connect-by-opc-ua",
-        "factory-planner",
-        "four-bar-for-a-motion",
-        "four-bar-for-a-path",
-        "meet-a-deadline",
-        "plan-a-factory",
-    ),
-    *("prepare-a-picture", "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe"),
-    "tuft-a-picture",
-    *("check-a-programme", "first-studio", "studio-api", "use-it-from-python", "automated-loom", "verdict"),
+    *("a-loom-for-weavers", "automated-loom", "automation-engineer", "check-a-programme", "connect-by-opc-ua"),
+    *("factory-planner", "first-machine", "first-studio", "four-bar-for-a-motion", "four-bar-for-a-path"),
+    *("machine-designer", "meet-a-deadline", "plan-a-factory", "prepare-a-picture", "read-a-programme", "run-the-loom"),
+    *("shape-and-pile", "studio-api", "study-a-design", "take-an-order", "to-the-workshop", "tuft-a-picture"),
+    *("tuft-with-a-gun", "use-it-from-python", "verdict", "weave-on-a-loom-that-exists", "weave-row-by-row"),
+    "write-a-recipe",
 }
 """Pages of more than three seconds of processor time."""
 

@@ -3,11 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
-import ezdxf
 import numpy as np
 import pypdfium2 as pdfium
 import pytest
-from sheet_judge import drawn_sheet, faults_of, made_parts, read
+from default_machines import SETTLED
+from effort import share_of
+from sheet_judge import ReadSheet, drawn_sheet, faults_of, made_parts, read
 from tests.unit.test_drawing_sheets import points_of
 
 from ilmek.elements.materials import find_material
@@ -28,7 +29,7 @@ DESIGNS: dict[str, tuple[str, dict[str, str]]] = {
     "hand loom": ("hand-loom", {}),
     "loom": ("automated-loom", {}),
     "linkage": ("automated-loom", {"beat": "linkage"}),
-    "arms": ("automated-loom", {"knotting": "arms"}),
+    "arms": ("automated-loom", {**SETTLED, "knotting": "arms"}),
 }
 
 STEEL = find_material("structural steel")
@@ -39,22 +40,23 @@ STEEL = find_material("structural steel")
 def test_sheets_have_the_sizes_and_bores_of_their_solids(name: str, tmp_path: Path) -> None:
     """Sizes over all, bores, and a toolmaker's points, of which one may be missing."""
     machine, values = DESIGNS[name]
-    sheets, files, faults = list[DrawingSheet](), list[Path](), {}
-    for drawn, part in made_parts(machine, **values):
+    parts = list(made_parts(machine, **values))
+    assert len(parts) > 25
+    sheets, read_sheets, faults = list[DrawingSheet](), list[ReadSheet](), {}
+    for drawn, part in share_of(parts, 3, name):
         sheets.append(drawn_sheet(drawn))
-        files.append(tmp_path / f"{len(files)}.dxf")
-        missing = faults_of(drawn, part, read(sheets[-1], files[-1]))
+        read_sheets.append(read(sheets[-1], tmp_path / f"{len(sheets)}.dxf"))
+        missing = faults_of(drawn, part, read_sheets[-1])
         if missing:
             faults[part.id] = missing
     write_sheets_pdf(tmp_path / "book.pdf", tuple(sheets), name)
     book = pdfium.PdfDocument(tmp_path / "book.pdf")
-    for number, (sheet, file) in enumerate(zip(sheets, files, strict=True)):
-        points = points_of(ezdxf.readfile(file), book[number].get_textpage().get_text_range().replace("\r", ""))
+    for number, (sheet, found) in enumerate(zip(sheets, read_sheets, strict=True)):
+        points = points_of(found.document, book[number].get_textpage().get_text_range().replace("\r", ""))
         missing = [point for point, there in points.items() if not there]
         if len(missing) > 1:
             faults[sheet.number] = missing
     assert not faults
-    assert len(sheets) > 25
 
 
 def test_a_size_or_a_bore_that_is_left_out_is_found(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import SETTLED_OPTIONS
 
 from ilmek.cli import main
 from ilmek.errors import MechanismError, ParameterError
@@ -20,7 +21,8 @@ from ilmek.machines.component import Component
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm", "--no-pdf")
-FAILS = ("--loom", "head_width=20mm", "--loom", "beat=comb")
+COMB = (*SETTLED_OPTIONS, "--loom", "beat=comb")
+FAILS = ("--loom", "head_width=20mm", *COMB)
 """A setting with which the loom is designed, and fails a check."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
@@ -80,7 +82,7 @@ def test_the_loom_states_whether_it_weaves() -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     out = str(tmp_path / "out")
-    first = run("weave", MEDALLION, *SMALL, "--loom", "beat=comb", "--out", out, "--json", "-")
+    first = run("weave", MEDALLION, *SMALL, *COMB, "--out", out, "--json", "-")
     found = json.loads(first.stdout)
     assert first.exit_code == judged(found)
     assert found["weaves"] is any(file.endswith("programme.ilmek") for file in found["files"])

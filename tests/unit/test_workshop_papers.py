@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from html import escape
+from importlib import import_module
 from itertools import combinations, pairwise, permutations
 from pathlib import Path
 from typing import Any
@@ -38,7 +39,6 @@ from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.papers.assembly_manual import FRAME
 from ilmek.machines.automated_loom.papers.braking import braking_checks, braking_of
 from ilmek.machines.automated_loom.papers.cables import routes
 from ilmek.machines.automated_loom.papers.moving_hazards import MovingHazard
@@ -47,6 +47,7 @@ from ilmek.machines.automated_loom.papers.safety_functions import safety_functio
 from ilmek.machines.automated_loom.papers.transport import lifting_of
 from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of, signs_of
 from ilmek.machines.bearing_seats import BRACKET
+from ilmek.machines.catalogue import find_machine
 from ilmek.machines.tree_manual import UP, assembly_steps, with_screws, with_welds
 from ilmek.part.bolting import bolted
 from ilmek.part.contacts import joined_by
@@ -72,8 +73,18 @@ from ilmek.viz.document_page import printed
 
 
 @cache
+def made() -> tuple[Papers, tuple[Insertion, ...]]:
+    """The papers, and the steps of the manual in them, which take half of their time."""
+    found: list[tuple[Insertion, ...]] = []
+    with pytest.MonkeyPatch.context() as patch:
+        manual = import_module("ilmek.machines.automated_loom.papers.assembly_manual")
+        patch.setattr(manual, "insertions", lambda *given: found.append(insertions(*given)) or found[-1])
+        papers = papers_of(MACHINE, default_design("automated-loom"), default_report("automated-loom"))
+    return papers, found[-1]
+
+
 def papers() -> Papers:
-    return papers_of(MACHINE, default_design("automated-loom"), default_report("automated-loom"))
+    return made()[0]
 
 
 def listed(name: str) -> list[dict[str, str]]:
@@ -898,7 +909,7 @@ def of_pieces(steps: Iterable[Insertion]) -> Counter[tuple[str, tuple[float, ...
 
 def test_each_piece_comes_once_and_what_is_built_is_of_the_pieces_that_come() -> None:
     tree = loom_tree(default_design("automated-loom"))
-    steps = insertions(tree, UP, FRAME)
+    steps = made()[1]
     pieces = of_pieces(steps)
     assert set(pieces.values()) == {1}
     whole = Counter[str]()
@@ -1035,7 +1046,9 @@ def test_a_design_whose_checks_fail_is_not_released(tmp_path: Path) -> None:
     pins = [("A", 0j), ("B", 0.1 + 0j)]
     bar = link_plate("bar", "Bar", pins, hole_radius=5e-3, width=0.03, thickness=5e-3, material="S235JR")
     report = Report("press", "Press", {}, (), (failed,), plates=(bar,))
-    write_workshop(report, tmp_path / "parts", papers=papers())
+    small = find_machine("beat-up").tree
+    assert small is not None
+    write_workshop(report, tmp_path / "parts", papers=replace(papers(), tree=small(default_design("beat-up"))))
     for name, word in (("index.html", "NOT RELEASED"), ("maintenance.tr.html", "ONAYLANMADI")):
         assert word in (tmp_path / "parts" / name).read_text(encoding="utf-8")
     index = (tmp_path / "parts" / "index.html").read_text(encoding="utf-8")

@@ -210,21 +210,26 @@ def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
     """The pieces that no joint lets move against each other, and which of them touch."""
     pieces = tuple(_pieces(tree))
     groups: dict[tuple[tuple[str, int], ...], dict[int, int]] = {}
+    turned: dict[tuple[tuple[str, int], ...], list[_Piece]] = {}
     for number, piece in enumerate(pieces):
         own = groups.setdefault(piece.held, {})
         own[number] = len(own)
+        turned.setdefault(piece.turned, []).append(piece)
     boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
     pairs = _near(boxes, TOUCHING) if pieces else np.empty((0, 2), int)
     together = np.array([pieces[one].held == pieces[two].held for one, two in pairs.tolist()], bool)
     pairs = pairs[together]
     touch, _, _ = _measured(pieces, pairs, TOUCHING, shared=False)
+    met: dict[tuple[tuple[str, int], ...], list[tuple[int, int]]] = {held: [] for held in groups}
+    for one, two in pairs[touch].tolist():
+        held = pieces[one].held
+        met[held].append((groups[held][one], groups[held][two]))
     for held, own in groups.items():
-        between = ((one, two) for one, two in pairs[touch].tolist() if pieces[one].held == held)
         height = boxes[list(own), 0, 1]
         yield StandingTouches(
             tuple(pieces[number] for number in own),
-            tuple((own[one], own[two]) for one, two in between),
-            tuple(piece for piece in pieces if piece.turned == pieces[next(iter(own))].turned and piece.held != held),
+            tuple(met[held]),
+            tuple(piece for piece in turned[pieces[next(iter(own))].turned] if piece.held != held),
             tuple((height - height.min()).tolist()),
             ground=not held,
         )
