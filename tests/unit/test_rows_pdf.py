@@ -123,7 +123,7 @@ def test_a_run_over_the_end_of_a_strip_has_its_whole_count(tmp_path: Path) -> No
     inks = Inks.of(made.yarns, symbols(made.yarns))
     counts = [
         [
-            label.count
+            label.knots
             for label in strip_labels(Strip(1, row_runs(made, 1), at, min(at + plan.part_columns, 1000)), plan, inks)
         ]
         for at in range(0, 1000, plan.part_columns)
