@@ -92,7 +92,7 @@ def papers(language: str, folder: Path, charts: Sequence[Chart]) -> Iterator[Pat
             lambda: write_chart_pdf(file, chart, printing=printing),  # noqa: B023 - called at once
             lambda: write_wall_pdf(file, chart, printing=printing),  # noqa: B023
         ]
-        if chart.rows == 12:
+        if chart.rows in (12, 95) or chart.columns == 9:  # an even number of cells, four sheets, an odd number
             kilim = kilim_printing(kilim_of(chart), "", language)
             writers.append(lambda: write_chart_pdf(file, chart, printing=kilim))  # noqa: B023
         for direction in DIRECTIONS if chart.rows in (12, 24) else ("both",):
@@ -206,6 +206,22 @@ def test_pages_are_read_back_in_the_order_of_reading(language: str, tmp_path: Pa
     assert expected("rows.both", language) in read_back(tmp_path / "rows.pdf")
     assert expected("rows.below", language) in read_back(tmp_path / "rows.pdf")
     assert expected("chart.grid", language, columns=70, rows=95) in read_back(tmp_path / "wall.pdf")
+
+
+KNOT = {"en": "knot", "tr": "ilme|düğüm", "fa": "گره", "ar": "عقد", "ur": "گرہ", "hi": "गाँठ", "ne": "गाँठ"}
+
+
+@pytest.mark.parametrize("language", WEAVERS)
+def test_a_kilim_has_no_knots(language: str, tmp_path: Path) -> None:
+    cloth = kilim_of(CHARTS[0])
+    write_kilim_rows(tmp_path / "rows.txt", cloth, language)
+    write_chart_pdf(tmp_path / "kilim.pdf", cloth.chart, printing=kilim_printing(cloth, "", language))
+    shown = read_back(tmp_path / "kilim.pdf")
+    assert expected("kilim.chart.order", language) in shown
+    _, *rows = (tmp_path / "rows.txt").read_text().splitlines()  # the first names the format
+    assert not re.search(KNOT[language], shown + " ".join(rows), re.IGNORECASE)
+    write_chart_pdf(tmp_path / "pile.pdf", cloth.chart, printing=Printing(language=language))
+    assert re.search(KNOT[language], read_back(tmp_path / "pile.pdf"), re.IGNORECASE)
 
 
 @pytest.mark.parametrize("language", FOREIGN)

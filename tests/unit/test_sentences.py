@@ -67,7 +67,9 @@ def test_every_sentence_is_said_somewhere() -> None:
         if file.parent.name != "sentences" or file.name == "__init__.py"
         for key in re.findall(r'"([a-z]+\.[a-z-]+|at|joined)"', file.read_text(encoding="utf-8"))
     }
-    assert [key for key in ENGLISH if key not in used and not key.startswith(FAMILIES)] == []
+    of_knots = {key: key.removeprefix("kilim.") for key in ENGLISH}  # a kilim has its own nouns for the same key
+    unsaid = {key for key in ENGLISH if key not in used and of_knots[key] not in used}
+    assert [key for key in unsaid if not of_knots[key].startswith(FAMILIES)] == []
 
 
 @pytest.fixture

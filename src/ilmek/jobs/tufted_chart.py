@@ -47,10 +47,11 @@ class UnknottedResult:
         results: Sequence[Result],
         checks: Sequence[Check],
     ) -> JsonObject:
-        """The JSON of the job. found: before the results."""
+        """The JSON of the job, without the kind of knot. found: before the results."""
+        order = {name: value for name, value in self.charted.order.as_dict().items() if name != "knot"}
         return job_json(
             "weave",
-            {**self.charted.order.as_dict(), technique: params, "deadline": deadline},
+            {**order, technique: params, "deadline": deadline},
             {"technique": technique, **found, **{one.name: one.value for one in results}},
             checks=checks,
             notes=list(self.notes),

@@ -45,6 +45,7 @@ WEAVERS = LANGUAGES | {
 """The languages of the weaver's papers; those that have no other sentences say them in English."""
 
 _SPOKEN = ContextVar("language", default=DEFAULT)
+_TECHNIQUE = ContextVar("technique", default="")
 
 
 GIVEN = frozenset(("choices", "file", "key", "name", "option"))
@@ -138,13 +139,21 @@ def joined(first: str, second: str) -> str:
 
 
 @contextmanager
-def in_language(language: str) -> Iterator[None]:
-    """Say sentences in a language; an unknown one is English."""
-    token = _SPOKEN.set(language if language in WEAVERS else DEFAULT)
+def in_language(language: str, technique: str = "") -> Iterator[None]:
+    """Say sentences in a language; an unknown one is English.
+
+    technique  of a carpet: what it has another noun for is said by its own sentence, the key TECHNIQUE.KEY
+
+    >>> with in_language("en", "kilim"):
+    ...     translated(Sentence("chart.order"))
+    'Rows are counted from the bottom, cells from the left.'
+    """
+    tokens = _SPOKEN.set(language if language in WEAVERS else DEFAULT), _TECHNIQUE.set(technique)
     try:
         yield
     finally:
-        _SPOKEN.reset(token)
+        _SPOKEN.reset(tokens[0])
+        _TECHNIQUE.reset(tokens[1])
 
 
 def translated(text: str) -> str:
@@ -158,7 +167,9 @@ def translated(text: str) -> str:
     """
     if not isinstance(text, Sentence):
         return named(text) if _SPOKEN.get() == "tr" else text
-    template = catalogue_of(_SPOKEN.get()).get(text.key, ENGLISH[text.key])
+    own = f"{_TECHNIQUE.get()}.{text.key}"
+    key = own if own in ENGLISH else text.key
+    template = catalogue_of(_SPOKEN.get()).get(key, ENGLISH[key])
     stays = {place: value for place, value in text.values.items() if place in GIVEN and type(value) is str}
     return template.format(**{place: translated(value) for place, value in text.values.items()} | stays)
 

@@ -142,9 +142,24 @@ ARABIC = {
     "kilim.rows": "كل قطعة لحمة على مكوكها؛ في كل صف {picks} لحمات ذهابا وإيابا. السطر: رقم الصف ثم قطعه من اليسار "
     "إلى اليمين.",
     "kilim.joins": "بين قطعتين: الخط القائم شق؛ والعلامة الثانية لحمتان حول خيط سداة واحد؛ والثالثة لحمتان متشابكتان.",
-    "kilim.legend": "الألوان: {colours}؛ {cells} خانة",
-    "kilim.marks": "خط عريض: شق. أسنان: لحمتان حول خيط سداة واحد. موجة: لحمتان متشابكتان. حيث تعد العقد فهي خانات "
-    "من خيطي سداة.",
+    "kilim.chart.title": "مخطط الكليم: {name}",
+    "kilim.chart.grid": "{columns} × {rows} خانة",
+    "kilim.chart.facts": "{size} (العرض × الطول)، {across} × {along} خانة في الديسيمتر",
+    "kilim.chart.one-sheet": "{columns} خانة × {rows} صف: {knots} خانة، {colours}؛ على ورقة واحدة",
+    "kilim.chart.sheets": "{columns} خانة × {rows} صف: {knots} خانة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة "
+    "{across} خانة × {up} صف",
+    "kilim.chart.order": "تعد الصفوف من الأسفل والخانات من اليسار.",
+    "kilim.chart.shaded": "الخانات الباهتة من الورقة التالية.",
+    "kilim.chart.part": "الصفوف {low} إلى {high}؛ الخانات {left} إلى {right}",
+    "kilim.legend.title": "مفتاح الألوان: {colours}؛ {knots} خانة",
+    "kilim.mounting.warps-text": "{warps}؛ لكل خانة خيطان",
+    "kilim.mounting.dense-text": "{across} خانة، {along} صف: قس مرارا",
+    "kilim.mounting.middle-knot": "الخانة الوسطى",
+    "kilim.mounting.in-knot": "في الخانة {number}؛ على بعد {length} سم من الحافة اليسرى",
+    "kilim.mounting.between-knots": "بين الخانتين {number} و{next}؛ على بعد {length} سم من الحافة اليسرى",
+    "kilim.mounting.each-knot": "كل {count} خانات",
+    "kilim.marks": "خط عريض: شق. أسنان: لحمتان حول خيط سداة واحد. موجة: لحمتان متشابكتان. عرض الخانة خيطا سداة، "
+    "وعدد لحماتها {picks}؛ وأكثر ما يلزم الصف من المكاكيك {bobbins}.",
     "rows.text-plain": "12{sign}: اثنتا عشرة خانة بلا عقد، بنسيج سادة.",
     "rows.text": "{size}، {quality}، عقدة {knot}؛ الصف 1 هو أول ما ينسج، عند الحافة السفلى.",
     "rows.text-signs": "رأس العلامة بعد رقم الصف يدل على اتجاه القراءة. السطر الذي يبدأ بفراغ تتمة للسطر الذي فوقه.",

@@ -62,7 +62,8 @@ ENGLISH = {
     "cure.by": "{what}: {cure}",
     "cure.lack": "or the yarns lack its colours (leave out --yarns)",
     "cure.print": "small print or thin lines cannot be read: a larger --size, a finer --quality, or a part (--crop)",
-    "cure.finer": "it is finer than the knots: a larger --size, a finer --quality, or a part of the picture (--crop)",
+    "cure.finer": "it is finer than the cells of the chart: a larger --size, a finer --quality (of a kilim: more "
+    "--kilim warps and picks), or a part of the picture (--crop)",
     "cure.more-colours": "--colours {count}",
     "cure.take-yarn": "take {yarn!r} of the list as well (--keep, more --colours)",
     "cure.add-yarn": "add a yarn like {colour}, {name}, to the list, or leave out --yarns",

@@ -144,9 +144,24 @@ HINDI = {
     "उसका नंबर, फिर बाएँ से दाएँ टुकड़े।",
     "kilim.joins": "दो टुकड़ों के बीच: खड़ी लकीर यानी खुली दरार; दूसरा चिह्न यानी दोनों बाने एक तार के चारों ओर; "
     "तीसरा यानी बाने एक-दूसरे में फँसे हुए।",
-    "kilim.legend": "रंग: {colours}; {cells} ख़ाने",
-    "kilim.marks": "मोटी लकीर: दरार। दाँत: दोनों बाने एक तार के चारों ओर। लहर: बाने एक-दूसरे में फँसे हुए। जहाँ "
-    "गाँठें गिनी जाएँ, वे दो तारों के ख़ाने हैं।",
+    "kilim.chart.title": "किलिम का नक्शा: {name}",
+    "kilim.chart.grid": "{columns} × {rows} ख़ाने",
+    "kilim.chart.facts": "{size} (चौड़ाई × लंबाई), प्रति डेसीमीटर {across} × {along} ख़ाने",
+    "kilim.chart.one-sheet": "{columns} ख़ाने × {rows} पंक्तियाँ: {knots} ख़ाने, {colours}, एक पन्ने पर",
+    "kilim.chart.sheets": "{columns} ख़ाने × {rows} पंक्तियाँ: {knots} ख़ाने, {colours}, {sheets} पन्नों पर; हर "
+    "पन्ना {across} ख़ाने × {up} पंक्तियाँ",
+    "kilim.chart.order": "पंक्तियाँ नीचे से और ख़ाने बाएँ से गिने जाते हैं।",
+    "kilim.chart.shaded": "फीके ख़ाने अगले पन्ने के हैं।",
+    "kilim.chart.part": "पंक्ति {low}–{high}, ख़ाना {left}–{right}",
+    "kilim.legend.title": "रंग सूची: {colours}, {knots} ख़ाने",
+    "kilim.mounting.warps-text": "{warps}; हर ख़ाना दो तारों पर",
+    "kilim.mounting.dense-text": "{across} ख़ाने, {along} पंक्तियाँ: बार-बार नापें",
+    "kilim.mounting.middle-knot": "बीच का ख़ाना",
+    "kilim.mounting.in-knot": "ख़ाना {number} के भीतर, बाएँ किनारे से {length} सेमी",
+    "kilim.mounting.between-knots": "ख़ाना {number} और {next} के बीच, बाएँ किनारे से {length} सेमी",
+    "kilim.mounting.each-knot": "हर {count}वाँ ख़ाना",
+    "kilim.marks": "मोटी लकीर: दरार। दाँत: दोनों बाने एक तार के चारों ओर। लहर: बाने एक-दूसरे में फँसे हुए। हर ख़ाना "
+    "दो तार चौड़ा और {picks} बाने ऊँचा है; एक पंक्ति में अधिक से अधिक {bobbins} फिरकियाँ लगती हैं।",
     "rows.text-plain": "12{sign}: 12 ख़ाने बिना गाँठ के, सादी बुनाई में।",
     "rows.text": "{size}, {quality}, {knot} गाँठ; पंक्ति 1 सबसे पहले बुनी जाती है, निचले किनारे पर।",
     "rows.text-signs": ">: बाएँ से दाएँ पढ़ें; <: दाएँ से बाएँ। जो पंक्ति ख़ाली जगह से शुरू हो वह ऊपर वाली का अगला भाग है।",

@@ -144,9 +144,24 @@ NEPALI = {
     "लहरको नम्बर, अनि बायाँबाट दायाँ टुक्राहरू।",
     "kilim.joins": "दुई टुक्राबीच: ठाडो रेखा भए चिरा; दोस्रो चिन्ह भए दुवै बाना एउटै तानाको वरिपरि; तेस्रो भए बाना "
     "एकअर्कामा अल्झिएका।",
-    "kilim.legend": "रङ: {colours}; {cells} कोठा",
-    "kilim.marks": "मोटो रेखा: चिरा। दाँत: दुवै बाना एउटै तानाको वरिपरि। लहर: बाना एकअर्कामा अल्झिएका। जहाँ गाँठा "
-    "गनिन्छ, ती दुई तानाका कोठा हुन्।",
+    "kilim.chart.title": "किलिमको नक्सा: {name}",
+    "kilim.chart.grid": "{columns} × {rows} कोठा",
+    "kilim.chart.facts": "{size} (चौडाइ × लम्बाइ), प्रति डेसिमिटर {across} × {along} कोठा",
+    "kilim.chart.one-sheet": "{columns} कोठा × {rows} लहर: {knots} कोठा, {colours}, एउटै पानामा",
+    "kilim.chart.sheets": "{columns} कोठा × {rows} लहर: {knots} कोठा, {colours}, {sheets} पानामा; हरेक पाना "
+    "{across} कोठा × {up} लहर",
+    "kilim.chart.order": "लहर तलबाट र कोठा बायाँबाट गनिन्छ।",
+    "kilim.chart.shaded": "फिका कोठा अर्को पानाका हुन्।",
+    "kilim.chart.part": "लहर {low}–{high}, कोठा {left}–{right}",
+    "kilim.legend.title": "रङ सूची: {colours}, {knots} कोठा",
+    "kilim.mounting.warps-text": "{warps}; हरेक कोठा दुई धागामा",
+    "kilim.mounting.dense-text": "{across} कोठा, {along} लहर: बारम्बार नाप्नुहोस्",
+    "kilim.mounting.middle-knot": "बीचको कोठा",
+    "kilim.mounting.in-knot": "कोठा {number} भित्र, बायाँ किनारबाट {length} सेमी",
+    "kilim.mounting.between-knots": "कोठा {number} र {next} को बीचमा, बायाँ किनारबाट {length} सेमी",
+    "kilim.mounting.each-knot": "हरेक {count} औँ कोठा",
+    "kilim.marks": "मोटो रेखा: चिरा। दाँत: दुवै बाना एउटै तानाको वरिपरि। लहर: बाना एकअर्कामा अल्झिएका। हरेक कोठा "
+    "दुई धागा चौडा र {picks} बाना अग्लो हुन्छ; एक लहरमा बढीमा {bobbins} फिर्की चाहिन्छ।",
     "rows.text-plain": "12{sign}: गाँठो नभएका 12 कोठा, सादा बुनाइमा।",
     "rows.text": "{size}, {quality}, {knot} गाँठो; लहर 1 सबैभन्दा पहिले बुनिन्छ, तल्लो किनारमा।",
     "rows.text-signs": ">: बायाँबाट दायाँ पढ्नुहोस्; <: दायाँबाट बायाँ। खाली ठाउँबाट सुरु हुने हरफ माथिल्लो हरफको बाँकी हो।",

@@ -145,9 +145,24 @@ PERSIAN = {
     "سپس تکه‌ها از چپ به راست.",
     "kilim.joins": "نشانه‌ی میان دو تکه: خط راست یعنی چاک؛ نشانه‌ی دوم یعنی هر دو پود به دور یک چله می‌پیچند؛ "
     "نشانه‌ی سوم یعنی پودها در هم قفل می‌شوند.",
-    "kilim.legend": "رنگ‌ها: {colours}؛ {cells} خانه",
-    "kilim.marks": "خط پهن: چاک. دندانه: هر دو پود به دور یک چله. موج: پودها در هم قفل می‌شوند. هر جا گره شمرده "
-    "شود، خانه‌ای دو چله‌ای است.",
+    "kilim.chart.title": "نقشه‌ی گلیم: {name}",
+    "kilim.chart.grid": "{columns} × {rows} خانه",
+    "kilim.chart.facts": "{size} (عرض × طول)، {across} × {along} خانه در دسی‌متر",
+    "kilim.chart.one-sheet": "{columns} خانه × {rows} رج: {knots} خانه، {colours}، روی یک برگ",
+    "kilim.chart.sheets": "{columns} خانه × {rows} رج: {knots} خانه، {colours}، روی {sheets} برگ؛ هر برگ {across} "
+    "خانه × {up} رج",
+    "kilim.chart.order": "رج‌ها از پایین و خانه‌ها از چپ شمرده می‌شوند.",
+    "kilim.chart.shaded": "خانه‌های کم‌رنگ از برگ بعدی‌اند.",
+    "kilim.chart.part": "رج {low} تا {high}؛ خانه‌ی {left} تا {right}",
+    "kilim.legend.title": "راهنمای رنگ‌ها: {colours}، {knots} خانه",
+    "kilim.mounting.warps-text": "{warps}؛ هر خانه روی دو چله",
+    "kilim.mounting.dense-text": "{across} خانه، {along} رج: پیوسته اندازه بگیرید",
+    "kilim.mounting.middle-knot": "خانه‌ی میانی",
+    "kilim.mounting.in-knot": "در خانه‌ی {number}؛ {length} سانتی‌متر از لبه‌ی چپ",
+    "kilim.mounting.between-knots": "میان خانه‌ی {number} و {next}؛ {length} سانتی‌متر از لبه‌ی چپ",
+    "kilim.mounting.each-knot": "هر {count} خانه",
+    "kilim.marks": "خط پهن: چاک. دندانه: هر دو پود به دور یک چله. موج: پودها در هم قفل می‌شوند. هر خانه دو چله پهنا "
+    "و {picks} پود بلندی دارد؛ هر رج حداکثر {bobbins} ماسوره می‌خواهد.",
     "rows.text-plain": "12{sign}: دوازده خانه‌ی بی‌گره، با بافت ساده.",
     "rows.text": "{size}، {quality}، گره {knot}؛ رج 1 نخستین رج بافت است، در لبه‌ی پایین.",
     "rows.text-signs": "نوک نشانه‌ی پس از شماره‌ی رج جهت خواندن را نشان می‌دهد. سطری که با فاصله آغاز شود "

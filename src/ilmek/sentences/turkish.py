@@ -62,7 +62,8 @@ TURKISH = {
     "cure.by": "{what}: {cure}",
     "cure.lack": "ya da ipliklerde renkleri yok (iplik listesini bırakın)",
     "cure.print": "küçük yazı ya da ince çizgiler okunamaz: daha büyük bir boyut, daha ince bir kalite ya da bir parça",
-    "cure.finer": "düğümlerden ince: daha büyük bir boyut, daha ince bir kalite ya da resmin bir parçası",
+    "cure.finer": "çizelgenin gözlerinden ince: daha büyük bir boyut, daha ince bir kalite (kilimde daha çok çözgü ve "
+    "atkı) ya da resmin bir parçası",
     "cure.more-colours": "iplik sayısını {count} yapın",
     "cure.take-yarn": "listeden {yarn!r} ipliğini de alın (tutulan iplikler ya da daha çok iplik)",
     "cure.add-yarn": "listeye {colour} gibi bir iplik ekleyin ya da iplik listesini kaldırın",

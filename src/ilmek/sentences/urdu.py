@@ -145,9 +145,24 @@ URDU = {
     "پھر بائیں سے دائیں ٹکڑے۔",
     "kilim.joins": "دو ٹکڑوں کے بیچ: سیدھی لکیر یعنی چاک؛ دوسرا نشان یعنی دونوں بانے ایک تار کے گرد؛ تیسرا نشان "
     "یعنی بانے ایک دوسرے میں پھنسے ہوئے۔",
-    "kilim.legend": "رنگ: {colours}؛ {cells} خانے",
-    "kilim.marks": "موٹی لکیر: چاک۔ دندانے: دونوں بانے ایک تار کے گرد۔ لہر: بانے ایک دوسرے میں پھنسے ہوئے۔ جہاں "
-    "گرہیں گنی جائیں، وہ دو تاروں کے خانے ہیں۔",
+    "kilim.chart.title": "گلیم کا نقشہ: {name}",
+    "kilim.chart.grid": "{columns} × {rows} خانے",
+    "kilim.chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} خانے",
+    "kilim.chart.one-sheet": "{columns} خانے × {rows} قطاریں: {knots} خانے، {colours}، ایک ورق پر",
+    "kilim.chart.sheets": "{columns} خانے × {rows} قطاریں: {knots} خانے، {colours}، {sheets} اوراق پر؛ ہر ورق "
+    "{across} خانے × {up} قطاریں",
+    "kilim.chart.order": "قطاریں نیچے سے اور خانے بائیں سے گنے جاتے ہیں۔",
+    "kilim.chart.shaded": "پھیکے خانے اگلے ورق کے ہیں۔",
+    "kilim.chart.part": "قطار {low} تا {high}؛ خانہ {left} تا {right}",
+    "kilim.legend.title": "رنگوں کی فہرست: {colours}، {knots} خانے",
+    "kilim.mounting.warps-text": "{warps}؛ ہر خانہ دو تاروں پر",
+    "kilim.mounting.dense-text": "{across} خانے، {along} قطاریں: بار بار ناپیں",
+    "kilim.mounting.middle-knot": "درمیانی خانہ",
+    "kilim.mounting.in-knot": "خانہ {number} کے اندر، بائیں کنارے سے {length} سینٹی میٹر",
+    "kilim.mounting.between-knots": "خانہ {number} اور {next} کے درمیان، بائیں کنارے سے {length} سینٹی میٹر",
+    "kilim.mounting.each-knot": "ہر {count}واں خانہ",
+    "kilim.marks": "موٹی لکیر: چاک۔ دندانے: دونوں بانے ایک تار کے گرد۔ لہر: بانے ایک دوسرے میں پھنسے ہوئے۔ ہر خانہ "
+    "دو تار چوڑا اور {picks} بانے اونچا ہے؛ ایک قطار میں زیادہ سے زیادہ {bobbins} پھرکیاں لگتی ہیں۔",
     "rows.text-plain": "12{sign}: بارہ خانے بغیر گرہ کے، سادہ بنائی میں۔",
     "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔",
     "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ "

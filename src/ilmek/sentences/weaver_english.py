@@ -148,9 +148,24 @@ WEAVER = {
     "text: its number, then its runs from left to right.",
     "kilim.joins": "Between two runs: | nothing, a slit; v dovetail, both round one warp; x interlock, each round "
     "the other.",
-    "kilim.legend": "Colours: {colours}; {cells} cells",
+    "kilim.chart.title": "Kilim chart: {name}",
+    "kilim.chart.grid": "{columns} × {rows} cells",
+    "kilim.chart.facts": "{size} (width × length), {across} × {along} cells per dm",
+    "kilim.chart.one-sheet": "{columns} cells × {rows} rows: {knots} cells in {colours} on one sheet",
+    "kilim.chart.sheets": "{columns} cells × {rows} rows: {knots} cells in {colours} on {sheets} sheets of {across} "
+    "cells × {up} rows",
+    "kilim.chart.order": "Rows are counted from the bottom, cells from the left.",
+    "kilim.chart.shaded": "Shaded cells belong to the next sheet.",
+    "kilim.chart.part": "rows {low}–{high}, cells {left}–{right}",
+    "kilim.legend.title": "Legend: {colours}, {knots} cells",
+    "kilim.mounting.warps-text": "{warps}, two for a cell",
+    "kilim.mounting.dense-text": "{across} cells, {along} rows: measure often",
+    "kilim.mounting.middle-knot": "middle cell",
+    "kilim.mounting.in-knot": "in cell {number}, {length} cm from the left edge",
+    "kilim.mounting.between-knots": "between cells {number} and {next}, {length} cm from the left edge",
+    "kilim.mounting.each-knot": "each {count}th cell",
     "kilim.marks": "Thick line: slit. Teeth: dovetail, both wefts round one warp. Wave: interlock, each weft round "
-    "the other. Where knots are counted, they are cells of two warps.",
+    "the other. A cell is two warps wide and {picks} picks high; a row takes at most {bobbins} bobbins.",
     "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",
     "rows.text": "{size}, {quality}, {knot} knot; row 1 is the first that is woven, at the lower edge.",
     "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank "

@@ -11,7 +11,6 @@ from ilmek.arrays import BoolArray, Indices
 from ilmek.carpet.kilim import DOVETAIL, INTERLOCK, SLIT, KilimParams, borders, joined
 from ilmek.carpet.kilim_cloth import KilimCloth
 from ilmek.carpet.mounting import mounting
-from ilmek.io.chart.legend import colours_in_words, thousands
 from ilmek.io.chart.printing import Printing
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.records import record
@@ -49,11 +48,10 @@ class KilimMarks:
 def kilim_printing(cloth: KilimCloth, digits: str, language: str) -> Printing:
     """What the chart of a kilim has beside its cells: its legend, the mounting, slits and joins."""
     chart = cloth.chart
-    colours = colours_in_words(chart.colours)
-    legend = Sentence("kilim.legend", colours=colours, cells=thousands(chart.knots.size)), Sentence("kilim.marks")
+    note = Sentence("kilim.marks", picks=cloth.params.step, bobbins=cloth.work.bobbins.max())
     warps = mounting(chart, replace(cloth.ground, selvedge_warps=0))
     marks = kilim_marks(chart.knots, cloth.params).draw
-    return Printing(digits, None, warps, language, marks=marks, legend=legend)
+    return Printing(digits, None, warps, language, marks=marks, notes=(note,), technique="kilim")
 
 
 def kilim_marks(chart_knots: Indices, params: KilimParams) -> KilimMarks:

@@ -61,9 +61,7 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
-    title, *notes = printing.legend or (
-        Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total)),
-    )
+    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
     y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))
@@ -81,7 +79,7 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
         canvas.setFillGray(0.1)
         canvas.setFont(TEXT, 9)
         canvas.write(_LEFT + 52.0, y, Sentence("legend.outside"))
-    for note in (*_of_the_pile(chart, printing.pile), *notes):
+    for note in (*_of_the_pile(chart, printing.pile), *printing.notes):
         rest = canvas.numerals(note)
         while rest:
             line, rest = two_lines(rest, 9, _ACROSS)

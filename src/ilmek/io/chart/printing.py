@@ -59,7 +59,8 @@ class Printing:
     name      of the carpet, colourway included; "": it has none
     marks     drawn on the cells of a sheet: with canvas, rows of the chart, layout and sheet; None: none
     pile      height of knots without one of their own [m]; None: the usual one
-    legend    title of the legend and lines below its yarns; (): those of knots
+    notes     lines below the yarns of the legend
+    technique whose nouns are said; "": that of knots
     """
 
     digits: str = ""
@@ -68,8 +69,9 @@ class Printing:
     language: str = DEFAULT
     name: str = ""
     marks: Callable[[Any, int, SheetLayout, ChartSheet], None] | None = None
-    legend: tuple[Sentence, ...] = ()
+    notes: tuple[Sentence, ...] = ()
     pile: float | None = None
+    technique: str = ""
 
 
 PLAIN = Printing()
@@ -219,7 +221,7 @@ def printed_file(path: Path, title: str, printing: Printing | None = None, **mor
     before = config.useA85
     config.useA85 = 0
     try:
-        with nullcontext() if printing is None else in_language(printing.language):
+        with nullcontext() if printing is None else in_language(printing.language, printing.technique):
             spoken = {} if printing is None else {"digits": printing.digits, "lang": printing.language}
             canvas = PrintCanvas(path, **{"pagesize": A4, **spoken, **more})
             canvas.printing = printing or PLAIN
