@@ -10,7 +10,9 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
+from ilmek.carpet.cells import CUT_AWAY, PILE, CellMap
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.kilim import JOINS, KilimParams, borders, is_too_long, joined, kilim_work, pick_length, slits
 from ilmek.carpet.kilim_cloth import KilimPrices, kilim_cloth
@@ -28,7 +30,12 @@ def drawn(seed: int, yarns: int = 3) -> np.ndarray:
     rng = np.random.default_rng(seed)
     rows, columns = rng.integers(2, 30, 2)
     blocks = rng.integers(0, yarns, (rows, columns)).repeat(rng.integers(1, 6), axis=0)
-    return np.ascontiguousarray(blocks[: max(2, len(blocks) - 1)]).astype(np.uint8)
+    knots = np.ascontiguousarray(blocks[: max(2, len(blocks) - 1)]).astype(np.uint8)
+    if seed % 2:  # an outline, and a hole beside its middle
+        y, x = (np.linspace(-1.0, 1.0, cells) for cells in knots.shape)
+        radius = np.hypot(y[:, np.newaxis], x)
+        knots[(radius > 1.0) | (np.hypot(y[:, np.newaxis] - 0.3, x) < 0.2)] = NO_KNOT
+    return knots
 
 
 def slits_by_pixels(knots: np.ndarray) -> set[tuple[int, int, int]]:
@@ -38,7 +45,8 @@ def slits_by_pixels(knots: np.ndarray) -> set[tuple[int, int, int]]:
         begun = None
         for number in range(1, rows + 2):
             row = rows - number
-            split = row >= 0 and knots[row, column] != knots[row, column + 1]
+            pair = knots[row, column : column + 2].tolist() if row >= 0 else [0, 0]
+            split = pair[0] != pair[1] and NO_KNOT not in pair
             if split and begun is None:
                 begun = number
             if not split and begun is not None:
@@ -61,7 +69,8 @@ def test_slits_joins_and_bobbins_are_those_of_the_pixels(seed: int) -> None:
                 closed[len(knots) - last : len(knots) - first + 1, column - 1] = True
         assert np.array_equal(joined(knots, params), closed)
         work = kilim_work(knots, 3, params)
-        runs = [len(list(re.finditer(r"(.)\1*", "".join(map(str, row))))) for row in knots.tolist()]
+        rows = ["".join(map(str, row)).replace(str(NO_KNOT), "-") for row in knots.tolist()]
+        runs = [len(re.findall(r"(\d)\1*", row)) for row in rows]
         assert work.bobbins.tolist() == runs
         assert (work.picks, work.joins) == (4 * sum(runs), 2 * 4 * int(closed.sum()))
         marks = kilim_marks(knots, params)
@@ -111,7 +120,8 @@ def test_the_rows_say_every_cell_and_join(tmp_path: Path, join: str) -> None:
     knots = drawn(5)
     params = KilimParams(join=join, longest_slit=2 / KilimParams().quality.along)
     size = f"{100 * knots.shape[1] / params.quality.across!r}x{100 * len(knots) / params.quality.along!r}cm"
-    chart = Chart(knots, default_yarns()[:3], size, params.quality, "symmetric")
+    cells = CellMap(knots == NO_KNOT, (PILE, CUT_AWAY))
+    chart = Chart(knots, default_yarns()[:3], size, params.quality, "symmetric", cells=cells)
     cloth = kilim_cloth(chart, params, GroundParams(), KilimPrices((None,) * 3, None, 0.0))
     write_kilim_rows(tmp_path / "rows.txt", cloth, "fa")
     text = (tmp_path / "rows.txt").read_text(encoding="utf-8")
@@ -120,11 +130,15 @@ def test_the_rows_say_every_cell_and_join(tmp_path: Path, join: str) -> None:
     joints = joined(knots, params)
     for number, line in rows:
         row, at = len(knots) - int(number), 0
-        cells = re.findall(r"(\d+)([A-Z])", line)
-        assert "".join(sign * int(count) for count, sign in cells) == "".join("ABC"[code] for code in knots[row])
-        for between in re.split(r"\d+[A-Z]", line)[1:-1]:
+        runs = re.findall(r"(\d+)([A-Z·])", line)
+        signs = {0: "A", 1: "B", 2: "C", NO_KNOT: "·"}
+        assert "".join(sign * int(count) for count, sign in runs) == "".join(
+            signs[code] for code in knots[row].tolist()
+        )
+        for between in re.split(r"\d+[A-Z·]", line)[1:-1]:
             at = next(column for column in range(at, len(knots[row])) if knots[row, column] != knots[row, column + 1])
-            assert between == (SIGNS[join] if joints[row, at] else SIGNS["slit"])
+            edge = NO_KNOT in knots[row, at : at + 2]
+            assert between == (" " if edge else SIGNS[join] if joints[row, at] else SIGNS["slit"])
             at += 1
 
 
@@ -157,13 +171,35 @@ def test_a_long_slit_is_a_failed_check_with_its_place_and_a_join_cures_it(tmp_pa
     ]  # fmt: skip
 
 
+def test_a_round_kilim_of_one_colour_is_the_chords_of_its_circle(tmp_path: Path) -> None:
+    Image.new("RGB", (40, 40), (150, 40, 40)).save(tmp_path / "red.png")
+    asked = ["weave", str(tmp_path / "red.png"), "--technique", "kilim", "--size", "40x40cm", "--shape", "round"]
+    made = CliRunner().invoke(main, [*asked, "--out", str(tmp_path / "round")])
+    assert made.exit_code == 0, made.output
+    report = json.loads((tmp_path / "round" / "report.json").read_text())
+    rows, params = 200, KilimParams()
+    middles = (np.arange(rows) + 0.5) / rows * 0.4 - 0.2
+    chords = 2 * np.sqrt(0.2**2 - middles**2)
+    assert (report["bobbins_per_row"], report["mean_bobbins"], report["slit_length"]) == (1, 1.0, 0.0)
+    base, cell = pick_length(0, 0, params), pick_length(1, 0, params) - pick_length(0, 0, params)
+    weft = 4 * (rows * base + cell * chords.sum() * params.quality.across)
+    assert report["weft_length"] == pytest.approx(weft, rel=2e-3)
+    ground = GroundParams()
+    warp = 200 * ground.warp_length(0.4) * carpet_yarns(ground.yarns, 1 / params.warps).warp.linear_density
+    kept = (1 - ground.loom_waste / ground.warp_length(0.4)) * math.pi / 4
+    assert report["cloth_mass"] == pytest.approx((weft * 0.4e-3 + kept * warp) / (math.pi * 0.2**2), rel=4e-3)
+    with Image.open(tmp_path / "round" / "carpet.png") as drawn_round:
+        white = (np.asarray(drawn_round.convert("RGB")) == 255).all(axis=2).mean()
+    assert white == pytest.approx(1 - math.pi / 4, abs=2e-3)
+
+
 @pytest.mark.parametrize(
     ("settings", "told"),
     [
         (("--loom", "beat=comb"), "a kilim is woven by hand: a loom would need a bobbin for each run"),
         (("--quality", "25x25/dm"), "set --kilim warps=50/dm"),
         (("--kilim", "step=3"), "set step=4"),
-        (("--shape", "oval"), "a kilim of a carpet with"),
+        (("--kilim-ends", "2cm"), "; an outline of one height"),
         (("--kilim", "join=knot"), "slit, dovetail"),
     ],
 )

@@ -13,7 +13,8 @@ length s of a sinuous weft [ilmek.carpet.ground],
 
     l = s(w, p, A) + pi (D + d)/2 + j         j = 0 at a slit, p for each dovetail, d for each interlock at its two ends
 
-half a turn round the last warp for each pick [derived]. The time is that of every pick of every run, its length at the
+half a turn round the last warp for each pick [derived]. Cells outside of the shape have no weft: at the outline a weft
+turns back beside nothing, so that there is no slit. The time is that of every pick of every run, its length at the
 speed of the hand, and of every join. Times and allowances are assumed by this project.
 """
 
@@ -25,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.quality import Quality
 from ilmek.elements.carpet_yarns import carpet_yarns
@@ -86,8 +88,9 @@ class Slit(NamedTuple):
 
 
 def borders(knots: Indices) -> BoolArray:
-    """Where the colour changes between a cell and that on its right, (rows, columns - 1)."""
-    changed: BoolArray = knots[:, 1:] != knots[:, :-1]
+    """Where the colour changes between a cell and that on its right, both woven, (rows, columns - 1)."""
+    left, right = knots[:, :-1], knots[:, 1:]
+    changed: BoolArray = (left != right) & (left != NO_KNOT) & (right != NO_KNOT)
     return changed
 
 
@@ -128,7 +131,9 @@ def slit_length(slit: Slit, params: KilimParams) -> float:
 
 
 class KilimRun(NamedTuple):
-    """A run of a row with a weft of its own: first cell from 0 at the left, cells, yarn, joins at its two ends."""
+    """A run of a row with a weft of its own: first cell from 0 at the left, cells, yarn, joins at its two ends; or
+    cells outside of the shape, of the yarn NO_KNOT.
+    """
 
     first: int
     cells: int
@@ -138,7 +143,7 @@ class KilimRun(NamedTuple):
 
 def row_runs(knots: Indices, joints: BoolArray) -> Iterator[KilimRun]:
     """The runs of one row from the left; joints: of its borders."""
-    ends = [*(np.flatnonzero(borders(knots[np.newaxis])[0]) + 1).tolist(), len(knots)]
+    ends = [*(np.flatnonzero(knots[1:] != knots[:-1]) + 1).tolist(), len(knots)]
     first = 0
     for end in ends:
         joins = int(first > 0 and joints[first - 1]) + int(end < len(knots) and joints[end - 1])
@@ -183,6 +188,8 @@ def kilim_work(knots: Indices, yarns: int, params: KilimParams, ground: GroundPa
     joins = 0
     for row, line in enumerate(knots):
         for run in row_runs(line, joints[row]):
+            if run.yarn == NO_KNOT:
+                continue
             bobbins[row] += 1
             key = run.cells, run.joins
             if key not in lengths:

@@ -45,7 +45,7 @@ class KilimCloth:
     weft_length = computed("m", "weft of the whole carpet", lambda it: float(it.work.weft.sum()))
     weft_mass = computed("kg", "mass of the weft", lambda it: sum(it.masses))
     warp_mass = computed("kg", "mass of the warps, ends and loom waste included", lambda it: it.warp.mass)
-    cloth_mass = computed("kg/m^2", "mass of the carpet over its area", lambda it: it.mass / it.chart.size.area)
+    cloth_mass = computed("kg/m^2", "mass of the carpet over its area", lambda it: it.mass / it.area)
     kilim_time = computed("h", "time of one weaver", lambda it: it.work.time)
 
     @computed("", "weft of each colour, in the order of the list")
@@ -115,8 +115,13 @@ class KilimCloth:
 
     @property
     def mass(self) -> float:
-        """Mass of the carpet [kg], without the waste of the loom."""
-        return sum(self.masses) + self.warp.kept * self.warp.mass
+        """Mass of the carpet [kg], without the waste of the loom and what is cut away outside of the shape."""
+        return sum(self.masses) + self.warp.kept * self.warp.mass * self.area / self.chart.size.area
+
+    @property
+    def area(self) -> float:
+        """Area of the cells that are woven [m²]."""
+        return self.chart.size.area * self.chart.tied.total / self.chart.knots.size
 
     @property
     def in_words(self) -> str:

@@ -107,7 +107,7 @@ def weave_kilim(
 
 def _charted(order: CarpetOrder, kilim: KilimOrder, folder: Path, progress: Progress) -> KilimResult:
     """The cloth of an order; nothing is written."""
-    charted = charted_for(order, kilim.params.quality, progress, noun="a kilim")
+    charted = charted_for(order, kilim.params.quality, progress, noun="a kilim", outline=True)
     charted = replace(charted, chart=used_first(charted.chart))
     prices = tuple(cone.price for cone in cones_of(charted))
     warp = order.plan.price("warp", order.plan.ground().yarns.warp)

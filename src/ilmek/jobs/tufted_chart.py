@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ilmek.carpet.cells import PLAIN
+from ilmek.carpet.cells import CUT_AWAY, PILE, PLAIN
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.yarn_plan import parse_count
@@ -68,11 +68,17 @@ def yarn_setting(order: CarpetOrder) -> dict[str, Setting]:
 
 
 def charted_for(
-    order: CarpetOrder, quality: Quality, progress: Progress = SILENT, *, noun: str, piles: bool = False
+    order: CarpetOrder,
+    quality: Quality,
+    progress: Progress = SILENT,
+    *,
+    noun: str,
+    outline: bool = False,
+    piles: bool = False,
 ) -> ChartResult:
     """The chart of an order at the resolution of a machine or a cloth; a picture that is a chart keeps its size.
 
-    piles  whether a shape that is cut afterwards, and piles of several heights, can be made
+    outline  whether a shape can be made      piles  and piles of several heights
     Raises CarpetError for cells and carved lines that cannot.
     """
     if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
@@ -80,10 +86,15 @@ def charted_for(
     order = replace(order, quality=quality, pdf=False, files=replace(order.files, rows="none"))
     charted = make_charted(order, progress.part(0.3, 1.0))
     cells = charted.chart.cells
-    if cells is not None and not (piles and not cells.number(PLAIN) and cells.carving is None):
+    if cells is not None and not (
+        outline
+        and cells.carving is None
+        and (not cells.number(PLAIN) if piles else set(cells.kinds) <= {PILE, CUT_AWAY})
+    ):
         with_lines = () if cells.carving is None else ("carved lines",)
         given = f"{noun} of a carpet with {' and '.join((*map(str, cells.kinds), *with_lines))}"
-        allowed = "an outline that is cut, and heights of pile" if piles else "a rectangle of one pile"
+        shape = "an outline" if outline else "a rectangle"
+        allowed = f"{shape}, and heights of pile" if piles else f"{shape} of one height"
         do = "leave the options of its shape and pile out, and cut the carpet afterwards, or knot it"
         raise CarpetError(given, allowed=allowed, do=do)
     return charted

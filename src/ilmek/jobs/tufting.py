@@ -174,7 +174,7 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
     """The chart with the yarns that it uses first, and notes; colours left open are at most those of the creel."""
     params, creel = tufting.params, tufting.params.pattern.creel
     quality = Quality(1 / params.gauge, params.stitch_rate)
-    charted = charted_for(order, quality, progress.part(0.0, 0.5), noun="tufting", piles=True)
+    charted = charted_for(order, quality, progress.part(0.0, 0.5), noun="tufting", outline=True, piles=True)
     notes: tuple[str, ...] = ()
     if charted.chart.colours > creel > 1 and order.palette.colours is None and order.yarns is None:
         taken = counted(charted.chart.colours, "colour")
@@ -182,7 +182,7 @@ def _charted(order: CarpetOrder, tufting: TuftingOrder, progress: Progress) -> t
             f"the picture has {taken}, the creel {creel}: drawn with these; set --colours or --tufting pattern.creel",
         )
         order = replace(order, palette=replace(order.palette, colours=creel))
-        charted = charted_for(order, quality, progress.part(0.5, 1.0), noun="tufting", piles=True)
+        charted = charted_for(order, quality, progress.part(0.5, 1.0), noun="tufting", outline=True, piles=True)
     return replace(charted, chart=used_first(charted.chart)), notes
 
 

@@ -158,6 +158,8 @@ ARABIC = {
     "kilim.mounting.in-knot": "في الخانة {number}؛ على بعد {length} سم من الحافة اليسرى",
     "kilim.mounting.between-knots": "بين الخانتين {number} و{next}؛ على بعد {length} سم من الحافة اليسرى",
     "kilim.mounting.each-knot": "كل {count} خانات",
+    "kilim.legend.outside": "خارج الشكل: لا تعبر لحمة خيوط السداة وتُقص",
+    "kilim.rows.text-plain": "12{sign}: اثنتا عشرة خانة خارج الشكل، بلا لحمة.",
     "kilim.marks": "خط عريض: شق. أسنان: لحمتان حول خيط سداة واحد. موجة: لحمتان متشابكتان. عرض الخانة خيطا سداة، "
     "وعدد لحماتها {picks}؛ وأكثر ما يلزم الصف من المكاكيك {bobbins}.",
     "rows.text-plain": "12{sign}: اثنتا عشرة خانة بلا عقد، بنسيج سادة.",

@@ -160,6 +160,8 @@ HINDI = {
     "kilim.mounting.in-knot": "ख़ाना {number} के भीतर, बाएँ किनारे से {length} सेमी",
     "kilim.mounting.between-knots": "ख़ाना {number} और {next} के बीच, बाएँ किनारे से {length} सेमी",
     "kilim.mounting.each-knot": "हर {count}वाँ ख़ाना",
+    "kilim.legend.outside": "आकार के बाहर: ताने से कोई बाना नहीं गुज़रता, वह काट दिया जाता है",
+    "kilim.rows.text-plain": "12{sign}: आकार के बाहर 12 ख़ाने, बिना बाने के।",
     "kilim.marks": "मोटी लकीर: दरार। दाँत: दोनों बाने एक तार के चारों ओर। लहर: बाने एक-दूसरे में फँसे हुए। हर ख़ाना "
     "दो तार चौड़ा और {picks} बाने ऊँचा है; एक पंक्ति में अधिक से अधिक {bobbins} फिरकियाँ लगती हैं।",
     "rows.text-plain": "12{sign}: 12 ख़ाने बिना गाँठ के, सादी बुनाई में।",

@@ -160,6 +160,8 @@ NEPALI = {
     "kilim.mounting.in-knot": "कोठा {number} भित्र, बायाँ किनारबाट {length} सेमी",
     "kilim.mounting.between-knots": "कोठा {number} र {next} को बीचमा, बायाँ किनारबाट {length} सेमी",
     "kilim.mounting.each-knot": "हरेक {count} औँ कोठा",
+    "kilim.legend.outside": "आकार बाहिर: तानाबाट कुनै बाना जाँदैन, त्यो काटिन्छ",
+    "kilim.rows.text-plain": "12{sign}: आकार बाहिरका 12 कोठा, बाना नभएका।",
     "kilim.marks": "मोटो रेखा: चिरा। दाँत: दुवै बाना एउटै तानाको वरिपरि। लहर: बाना एकअर्कामा अल्झिएका। हरेक कोठा "
     "दुई धागा चौडा र {picks} बाना अग्लो हुन्छ; एक लहरमा बढीमा {bobbins} फिर्की चाहिन्छ।",
     "rows.text-plain": "12{sign}: गाँठो नभएका 12 कोठा, सादा बुनाइमा।",

@@ -161,6 +161,8 @@ PERSIAN = {
     "kilim.mounting.in-knot": "در خانه‌ی {number}؛ {length} سانتی‌متر از لبه‌ی چپ",
     "kilim.mounting.between-knots": "میان خانه‌ی {number} و {next}؛ {length} سانتی‌متر از لبه‌ی چپ",
     "kilim.mounting.each-knot": "هر {count} خانه",
+    "kilim.legend.outside": "بیرون از شکل: پودی از چله‌ها نمی‌گذرد و بریده می‌شوند",
+    "kilim.rows.text-plain": "12{sign}: دوازده خانه‌ی بیرون از شکل، بی‌پود.",
     "kilim.marks": "خط پهن: چاک. دندانه: هر دو پود به دور یک چله. موج: پودها در هم قفل می‌شوند. هر خانه دو چله پهنا "
     "و {picks} پود بلندی دارد؛ هر رج حداکثر {bobbins} ماسوره می‌خواهد.",
     "rows.text-plain": "12{sign}: دوازده خانه‌ی بی‌گره، با بافت ساده.",

@@ -164,6 +164,8 @@ WEAVER = {
     "kilim.mounting.in-knot": "in cell {number}, {length} cm from the left edge",
     "kilim.mounting.between-knots": "between cells {number} and {next}, {length} cm from the left edge",
     "kilim.mounting.each-knot": "each {count}th cell",
+    "kilim.legend.outside": "outside of the shape: no weft crosses the warps, which are cut away",
+    "kilim.rows.text-plain": "12{sign}: 12 cells outside of the shape, which no weft crosses.",
     "kilim.marks": "Thick line: slit. Teeth: dovetail, both wefts round one warp. Wave: interlock, each weft round "
     "the other. A cell is two warps wide and {picks} picks high; a row takes at most {bobbins} bobbins.",
     "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",

@@ -157,6 +157,8 @@ WEAVER = {
     "kilim.mounting.in-knot": "{number}. gözün içinde, sol kenardan {length} cm",
     "kilim.mounting.between-knots": "{number}. ile {next}. göz arasında, sol kenardan {length} cm",
     "kilim.mounting.each-knot": "her {count}. göz",
+    "kilim.legend.outside": "biçimin dışı: çözgülerden atkı geçmez, sonra kesilir",
+    "kilim.rows.text-plain": "12{sign}: biçimin dışında 12 göz, atkı geçmez.",
     "kilim.marks": "Kalın çizgi: yarık. Dişler: ortak çözgü, iki atkı da bir çözgüden döner. Dalga: kenetleme, biri "
     "ötekinden döner. Bir göz iki çözgü eninde, {picks} atkı boyundadır; bir sıraya en çok {bobbins} makara gerekir.",
     "rows.text-plain": "12{sign}: ilmeksiz 12 göz, bez ayağı dokuma.",

@@ -4,6 +4,7 @@ import numpy as np
 from PIL import Image
 
 from ilmek.arrays import BoolArray, Float32
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.colour import LINEAR
 from ilmek.carpet.kilim import DOVETAIL, INTERLOCK, borders, joined
 from ilmek.carpet.kilim_cloth import KilimCloth
@@ -25,14 +26,17 @@ def draw_kilim(cloth: KilimCloth, *, longest: int = LONGEST, seed: int = 1) -> D
     down = max(1, round(across * chart.columns / chart.size.width * chart.size.length / chart.rows))
     shades = LINEAR[chart.colour_table[: len(chart.yarns)]].astype(np.float32)
     shades = shades[:, np.newaxis] * abrash(len(shades), chart.rows, rng)
-    rows = np.arange(chart.rows)[:, np.newaxis]
-    light = np.repeat(np.repeat(shades[chart.knots, rows], down, axis=0), across, axis=1)
+    rows, outside = np.arange(chart.rows)[:, np.newaxis], chart.knots == NO_KNOT
+    woven = shades[np.where(outside, 0, chart.knots), rows]
+    light = np.repeat(np.repeat(woven, down, axis=0), across, axis=1)
     y, x = np.arange(light.shape[0])[:, np.newaxis], np.arange(light.shape[1])
     ribs = 1.0 - _DEPTH * np.cos(np.pi * (x + 0.5) * 2 / across) ** 2
     picks = 0.95 + 0.05 * np.cos(np.pi * (y * cloth.params.step / down + 2 * x / across))
     _join(light, cloth, across, down)
     shade = ribs * picks * rng.normal(1.0, 0.03, (light.shape[0], light.shape[1])).astype(np.float32)
-    return DrawnCarpet(Image.fromarray(encoded((light * shade[..., np.newaxis]).astype(np.float32))), WHOLE)
+    light = (light * shade[..., np.newaxis]).astype(np.float32)
+    light[np.repeat(np.repeat(outside, down, axis=0), across, axis=1)] = 1.0
+    return DrawnCarpet(Image.fromarray(encoded(light)), WHOLE)
 
 
 def _join(light: Float32[np.ndarray, "height width 3"], cloth: KilimCloth, across: int, down: int) -> None:
