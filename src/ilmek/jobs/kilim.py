@@ -53,9 +53,11 @@ class KilimResult(UnknottedResult):
 def read_kilim_order(order: CarpetOrder, settings: Mapping[str, Setting], deadline: str | None = None) -> KilimOrder:
     """The order of a kilim from texts.
 
-    Raises ParameterError for a parameter that is none or out of its bounds, UnitError, and for a quality: warps and
-    picks are the resolution.
+    Raises ParameterError for a parameter that is none or out of its bounds, UnitError, for a knot, and for a quality:
+    warps and picks are the resolution.
     """
+    if order.knot is not None:
+        raise ParameterError(f"--knot {order.knot} with --technique kilim", allowed="no knot", do="leave it out")
     if order.quality is not None:
         given = f"--quality {order.quality} with --technique kilim"
         do = "set --kilim warps=50/dm and --kilim picks=200/dm instead"
