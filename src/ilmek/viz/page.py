@@ -61,11 +61,10 @@ def _verdict(report: Report) -> PageVerdict:
     return PageVerdict(good, bad, len(report.all_checks), report.reasons, nearest=report.nearest)
 
 
-def render(template: str, language: str = DEFAULT, **values: object) -> str:
-    """The page of a template, its own words in a language."""
-    page = _environment().get_template(template)
-    with in_language(language):
-        return encodable(page.render(version=ilmek.__version__, language=language, **values))
+def render(template: str, **values: object) -> str:
+    """The page of a template, its own words in the `language` among the values; English without one."""
+    with in_language(str(values.setdefault("language", DEFAULT))):
+        return encodable(_environment().get_template(template).render(version=ilmek.__version__, **values))
 
 
 def sentence(key: str, **values: object) -> str:
