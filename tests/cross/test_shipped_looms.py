@@ -26,7 +26,7 @@ def test_arms_have_room_at_a_coarse_and_at_a_fine_quality(knots: int) -> None:
         "knot": "asymmetric",
         "knotting": "arms",
         "weft": "rapier",
-        "beat": "hammer",
+        "beat": "linkage",
         **quality,
     }
     assert holds_in_space(design(AutomatedLoomParams.read(settings)))
