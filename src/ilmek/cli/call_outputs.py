@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ilmek.cli.language import language_of_command
 from ilmek.cli.terminal import note, progress_bar, say
 from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs
@@ -59,11 +60,11 @@ class CallOutputs:
             self.give("--json", lambda: json_text(found, self.progress.part(0.0, 1.0, "JSON")))
 
     def give_page(self, option: str, report: "Report") -> None:
-        """Stage the page of a report. What cannot be drawn is left out, which is noted at the end."""
+        """Stage the page of a report in the language of the command. What cannot be drawn is left out, and noted."""
         if option in self._to:
             from ilmek.jobs.page import page_text
 
-            page = page_text(report, self._left_out)
+            page = page_text(report, self._left_out, language_of_command())
             if page is None:
                 del self._to[option]
             else:

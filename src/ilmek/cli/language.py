@@ -28,9 +28,15 @@ def worded(text: str) -> str:
     return _said(text, headed)
 
 
-def _said(text: str, speak: Callable[[str], str]) -> str:
+def language_of_command() -> str:
+    """The language of --lang."""
     context = click.get_current_context(silent=True)
-    language = DEFAULT if context is None else context.meta.get(_LANGUAGE, DEFAULT)
+    language: str = DEFAULT if context is None else context.meta.get(_LANGUAGE, DEFAULT)
+    return language
+
+
+def _said(text: str, speak: Callable[[str], str]) -> str:
+    language = language_of_command()
     if language == DEFAULT:
         return printable(text)
     with in_language(language):
@@ -51,5 +57,5 @@ def language_option(*, hidden: bool = False) -> click.Option:
         expose_value=False,
         is_eager=True,
         callback=speak,
-        help="Language of what is printed, also given after the command; files and JSON stay as they are.",
+        help="Language of what is printed and of report pages, also after the command; other files and JSON stay.",
     )

@@ -14,7 +14,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 import ilmek
 from ilmek.errors import encodable
 from ilmek.report import Report
-from ilmek.sentences import Sentence, translated
+from ilmek.sentences import DEFAULT, Sentence, headed, in_language, translated
 from ilmek.viz.embedded import client
 from ilmek.viz.number_format import amount, beside, cells, compared, count, fixed, number, quantity, words
 from ilmek.viz.sections import PageVerdict, failures_first, judged, section, shown_first
@@ -29,10 +29,11 @@ FIRST_CHECKS = 10
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
-def machine_page(report: Report, left_out: list[str] | None = None) -> str:
+def machine_page(report: Report, left_out: list[str] | None = None, language: str = DEFAULT) -> str:
     """The page of a machine as self-contained HTML.
 
     left_out  list to which a warning is appended for each figure that cannot be drawn
+    language  of the page's own words, the names of checks and choices; what else the report says is in its language
     """
     shown = section(1, report, [] if left_out is None else left_out)
     checks = failures_first(judged(report.all_checks, ()))
@@ -41,6 +42,7 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     starts += [("choices", "What was chosen")] if report.all_choices else []
     return render(
         "machine.html.j2",
+        language=language,
         title=report.title,
         lead=report.lead,
         verdict=_verdict(report),
@@ -60,8 +62,9 @@ def _verdict(report: Report) -> PageVerdict:
 
 
 def render(template: str, **values: object) -> str:
-    """The page of a template."""
-    return encodable(_environment().get_template(template).render(version=ilmek.__version__, **values))
+    """The page of a template, its own words in the `language` among the values; English without one."""
+    with in_language(str(values.setdefault("language", DEFAULT))):
+        return encodable(_environment().get_template(template).render(version=ilmek.__version__, **values))
 
 
 def sentence(key: str, **values: object) -> str:
@@ -104,5 +107,5 @@ def _environment() -> Environment:
         "squeezed": _squeezed,
     }
     environment.filters.update(filters)
-    environment.globals.update(client=client, first_checks=FIRST_CHECKS, tests_title=TESTS, sentence=sentence)
+    environment.globals.update(client=client, first_checks=FIRST_CHECKS, tests_title=TESTS, sentence=sentence, _=headed)
     return environment

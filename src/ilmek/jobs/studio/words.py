@@ -53,6 +53,9 @@ WORDS = frozenset(
 )
 """Fields of records that hold words for people."""
 
+_SHAPES = frozenset(("pieces", "plates"))
+"""Fields of a report that are for the workshop: their parts are those of one tree, and no page shows them."""
+
 
 def spoken(record: T) -> T:
     """A record of a machine with its words in the language of the page: titles, notes, labels, headings, meanings.
@@ -76,5 +79,5 @@ def _spoken(value: Any, *, words: bool) -> Any:
         return type(value)(_spoken(one, words=words) for one in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
-    said = {one.name: _spoken(getattr(value, one.name), words=one.name in WORDS) for one in fields(value) if one.init}
-    return replace(value, **said)
+    names = [one.name for one in fields(value) if one.init and one.name not in _SHAPES]
+    return replace(value, **{name: _spoken(getattr(value, name), words=name in WORDS) for name in names})
