@@ -128,8 +128,9 @@ def _listed(text: str) -> str:
     pieces = text.split(", ")
     known = [_piece(piece) for piece in pieces]
     unknown = any(new is None and _SENTENCE.search(piece) for new, piece in zip(known, pieces, strict=True))
-    if unknown and any(known):  # one text is not said in two languages
-        return _piece(text) or text
+    if unknown and any(known):  # one text is not said in two languages; a noun may have a comma
+        rest = ", ".join(pieces[1:])
+        return _piece(text) or (known[0] and (said := _piece(rest)) and f"{known[0]}, {said}") or text
     return _piece(text) or ", ".join(new or piece for new, piece in zip(known, pieces, strict=True))
 
 
