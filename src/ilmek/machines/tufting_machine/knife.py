@@ -124,7 +124,7 @@ class KnifeDrive:
         knife, looper, over = self.params.knife, self.params.looper, self.over
         behind, source = self._beside.real, "path of the edge against the hook"
         free = looper.reach + looper.retreat + knife.width + 2 * knife.beside
-        wide = 2 * looper.needle / 2 + looper.gap + looper.thickness + knife.gap + knife.thickness
+        wide = looper.needle + looper.gap + looper.thickness + knife.gap + knife.thickness
         room = min(float(np.min(behind)), float(np.min(free - behind))) - knife.width / 2
         return (
             at_most(

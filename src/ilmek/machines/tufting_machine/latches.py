@@ -1,7 +1,7 @@
 """Latches of needles that are selected (`pattern.selection=needles`): which needles of a stroke go down.
 
 A needle slides in its bar. A solenoid on the bar's face pushes its plunger into a notch of the needle, which then goes
-down with the bar; a spring draws it back, for needles that stay up. Bolt and notch meet where the bar is highest; so
+down with the bar; a spring draws it back, for needles that stay up. Plunger and notch meet where the bar is highest; so
 both have the time in which it is off its highest position by less than their play:
 
     t = share of the turn with S - rise <= play, over the speed          closing, and opening, each <= t
@@ -88,7 +88,7 @@ class NeedleLatches:
             at_most(
                 "latches over each other on the needle bar", height, own.height, "mm", "needle_bar.height"
             ).with_cure("set a higher needle_bar.height, or a wider gauge", LATCH),
-            at_most("shear of a latch", self.load / self.row.area, own.latch_shear, "MPa", "parameter").with_cure(
+            at_most("shear of a latch", self.latch_shear, own.latch_shear, "MPa", "parameter").with_cure(
                 "set fewer needles to a drive, or softer penetration", LATCH
             ),
         )
