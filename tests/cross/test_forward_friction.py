@@ -7,17 +7,20 @@ five-bar's Lagrange's, with derivatives of its positions by differences. scipy's
 import math
 
 import numpy as np
+import pytest
 from scipy.integrate import solve_ivp
 
 import ilmek
-from ilmek.dynamics.forward import ForwardState, forward
+from ilmek.dynamics.forward import EndKind, ForwardState, forward
+from ilmek.dynamics.friction import Friction
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import PinFriction, SlideFriction
-from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.loads import Gravity, Load
 from ilmek.dynamics.motor_drive import MotorDrive
 from ilmek.dynamics.reduced import ReducedMechanism, reduce
+from ilmek.dynamics.springs import Spring
 from ilmek.linkage.fourbar import slider_crank
-from ilmek.linkage.model import Body, Mechanism, Pin, Rotation
+from ilmek.linkage.model import Body, Displacement, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.structure import plan
 
 FALL = 9.81
@@ -162,3 +165,24 @@ def test_five_bar_with_a_motor_and_a_free_input_runs_as_lagrange_says() -> None:
     assert np.max(np.abs(run.speed - wanted.y[2:])) < 1e-6
     assert run.energy_error < 1e-8
     assert set(run.table()) >= {"left position [rad]", "right effort [N*m]"}
+
+
+@pytest.mark.parametrize("rubbing", ["a load", "a joint"])
+def test_a_block_on_a_spring_swings_out_as_coulomb_says_and_is_held(rubbing: str) -> None:
+    """Each half swing loses 2 F / c of its amplitude, at the period without friction, until c |x| <= F."""
+    mass, stiffness, force, first = 2.0, 200.0, 24.0, 1.0
+    bodies = (Body("ground", {"O": 0j, "line": 0j}), Body("block", {"line": 0j}))
+    block = Mechanism(bodies, (Slide("line", "block", "ground"),), (Displacement("line"),))
+    loads: tuple[Load, ...] = (Spring(("ground", "O"), ("block", "line"), stiffness, 0.0, 0.0), Gravity(-FALL * 1j))
+    frictions: tuple[SlideFriction, ...] = ()
+    if rubbing == "a load":
+        loads += (Friction(("block", "line"), force, "line"),)
+    else:
+        frictions = (SlideFriction("line", GUIDE, force / (mass * FALL)),)
+    reduced = reduce(plan(block), {"block": Inertia(mass, 0j, 0.0)}, loads, frictions=frictions)
+    run = forward(reduced, ForwardState(first, -1e-8), 10.0)
+    assert run.end.kind is EndKind.HELD
+    loss, half = 2 * force / stiffness, math.pi * math.sqrt(mass / stiffness)
+    swings = math.ceil((first - force / stiffness) / loss)
+    assert abs(run.end.state.time - swings * half) < 1e-6
+    assert abs(run.end.state.position - (-1) ** swings * (first - swings * loss)) < 1e-6

@@ -9,7 +9,6 @@ The seed of a share is the number of the commit, so that the parts and their cas
 
 import argparse
 import ast
-import os
 import subprocess
 import sys
 import time
@@ -20,6 +19,7 @@ from functools import cache
 from pathlib import Path
 
 from engine_paths import CHECKED, engine_paths
+from processes import python, start
 from sources import tree_of
 
 ROOT = Path(__file__).parents[2]
@@ -29,8 +29,11 @@ SHARES = 6
 AT_ONCE = 2
 """Parts of a share."""
 
-SHORT_CUTS = ("--carpets", "2", "--runs", "1")
-PYTEST = ("-m", "pytest", "-n", "2", "--dist", "worksteal")
+NO_FINDING = "no finding"
+SHARE_LIMIT = 12 * 60.0
+"""Longest time of a part of a share [s]: a law that hangs is a finding, not the end of continuous integration."""
+
+PYTEST = ("-m", "pytest", "-n", "2", "--dist", "worksteal", "-o", "faulthandler_timeout=300")
 
 
 @dataclass(frozen=True)
@@ -172,16 +175,23 @@ def main() -> int:
     for part in chosen(given.parts, seed, given.share):
         begin, run = time.monotonic(), part.run(seed, given.share)
         _show(f"{part.name}, seed {seed}: {part.title}")
-        paths = os.pathsep.join((str(ROOT / "src"), str(ROOT / "tests" / "support")))
-        environment = {**os.environ, "PYTHONPATH": paths, **run.changes}
-        status = subprocess.run([sys.executable, *run.arguments], cwd=ROOT, env=environment, check=False).returncode
-        _show(f"{part.name}: {'FAILED' if status else 'no finding'}, {time.monotonic() - begin:.0f} s")
-        if status:
+        outcome = _outcome(run, SHARE_LIMIT if given.share else None)
+        _show(f"{part.name}: {outcome}, {time.monotonic() - begin:.0f} s")
+        if outcome != NO_FINDING:
             failed.append(part.name)
     if failed:
         share = " SHARE=1" if given.share else ""
         _show(f'to repeat: make campaigns PARTS="{" ".join(failed)}" SEED={seed}{share}')
     return int(bool(failed))
+
+
+def _outcome(run: Run, limit: float | None) -> str:
+    """How a run ended; after the limit it is killed with all that it has started."""
+    with start(python(*run.arguments), changes=run.changes, cwd=ROOT, stdout=None, stderr=None) as process:
+        try:
+            return "FAILED" if process.wait(limit) else NO_FINDING
+        except subprocess.TimeoutExpired:
+            return "NOT ENDED in its time"
 
 
 def _show(text: str) -> None:

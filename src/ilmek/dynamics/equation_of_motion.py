@@ -220,6 +220,15 @@ class GeneralEquation:
             return None
         return replace(self, signs=tuple(held.tolist()))
 
+    def departed(self, time: float, row: Row, way: float) -> "GeneralEquation":
+        """The equation of one input that leaves its rest in a direction, +1 or -1, with the signs just ahead."""
+        ahead = row.copy()
+        ahead[0] += way * AHEAD
+        terms = self.terms(time, ahead) if self.dry else None
+        if terms is None:
+            return self
+        return replace(self, signs=(*np.sign(self.speeds(terms.poses)).tolist(), *self.signs[self.dry :]))
+
     def _seconds(self, terms: StateTerms) -> Float[np.ndarray, "dry accelerations"]:
         """Accelerations in the joints with dry friction, without and with each unit acceleration of an input."""
         joints = [terms.poses.joints[law.joint] for law in self.laws[: self.dry]]

@@ -1,5 +1,10 @@
-"""Reversals of joints with dry friction in a forward run, and the joints that friction holds."""
+"""Reversals of joints with dry friction, and of one input against loads that jump there; what friction holds.
 
+One input that comes to rest moves on in the direction in which it is accelerated once it moves in it, with all friction
+against that motion. Where it is accelerated in neither, friction holds it.    [Coulomb; derived here]
+"""
+
+import math
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -15,6 +20,10 @@ Equation: TypeAlias = OneInputEquation | GeneralEquation
 
 RESTING = 1e-7
 """Speed in a joint, over the greatest of all joints with friction, that counts as rest where one of them reverses."""
+
+
+LEAST = 1e-9
+"""Speed or momentum of an input that comes to rest or has just left it, in the units of its row."""
 
 
 class RunSample(NamedTuple):
@@ -36,10 +45,11 @@ def between(solver: "scipy.integrate.DOP853", equation: Equation, time: float) -
 
 
 def reversal(solver: "scipy.integrate.DOP853", equation: Equation) -> tuple[RunSample, BoolArray | None]:
-    """The end of the last step, and no joints; or the first reversal of a joint with friction in it, and what rests."""
+    """The end of the last step, and no joints; or the first reversal with a jump in it, and which joints rest there."""
     end = RunSample(float(solver.t), np.array(solver.y), equation)
     if not isinstance(equation, GeneralEquation) or not equation.dry:
-        return end, None
+        rest = _input_at_rest(solver, equation)
+        return (end, None) if rest is None else (rest, np.zeros(0, dtype=bool))
     speeds = equation.along(end.time, end.row)
     turning = np.flatnonzero(speeds < 0)
     if len(turning) == 0:
@@ -54,15 +64,44 @@ def reversal(solver: "scipy.integrate.DOP853", equation: Equation) -> tuple[RunS
     there = np.abs(equation.along(found.time, found.row))
     resting = there <= RESTING * max(float(np.max(np.abs(speeds))), float(np.max(there)))
     resting[turning[first]] = True
+    if len(equation.drives) == 1 and abs(found.row[1]) <= RESTING * max(abs(solver.y_old[1]), abs(end.row[1])):
+        found.row[1] = math.copysign(LEAST, solver.y_old[1])
     return found, resting
+
+
+def _input_at_rest(solver: "scipy.integrate.DOP853", equation: Equation) -> RunSample | None:
+    """The state in the last step at which one input rests and its acceleration jumps."""
+    if len(equation.reduced.wheels) > 1 or solver.y_old[1] * solver.y[1] >= 0:
+        return None
+    dense = solver.dense_output()
+    rest = between(solver, equation, crossing_time(lambda time: float(dense(time)[1]), solver.t_old, solver.t))
+    rest.row[1] = math.copysign(LEAST, solver.y_old[1])
+    ahead, back = (_departed(rest, way)[1] for way in (1.0, -1.0))
+    return None if abs(ahead - back) <= RESTING * (abs(ahead) + abs(back)) else rest
+
+
+def _departed(rest: RunSample, way: float) -> tuple[RunSample, float]:
+    """The state just after a rest of one input, in a direction, and the derivative of its speed or momentum there."""
+    row = rest.row.copy()
+    row[1] = way * LEAST
+    equation = rest.equation
+    if isinstance(equation, GeneralEquation):
+        equation = equation.departed(rest.time, row, way)
+    return RunSample(rest.time, row, equation), float(equation.rates(rest.time, row)[1])
 
 
 def restarted(at: RunSample, resting: BoolArray) -> RunSample | RunEnd:
     """The state with the signs after it, where some joints with dry friction rest; the end where friction holds one."""
+    one = len(at.equation.reduced.wheels) == 1
+    if one and abs(at.row[1]) <= LEAST:
+        departures = [(*_departed(at, way), way) for way in (1.0, -1.0)]
+        possible = [(pace * way, after) for after, pace, way in departures if pace * way > 0]
+        if possible:
+            return max(possible, key=lambda departure: departure[0])[1]
+        return RunEnd(EndKind.HELD, at.state, "friction holds it at rest")
     assert isinstance(at.equation, GeneralEquation)
     turned = at.equation.turned(at.time, at.row, resting)
     if turned is not None:
         return at._replace(equation=turned)
     names = " or ".join(law.joint for law, rests in zip(at.equation.laws, resting, strict=False) if rests)
-    one = len(at.equation.drives) == 1
     return RunEnd(EndKind.HELD, at.state, "friction holds it at rest" if one else f"friction holds joint {names}")
