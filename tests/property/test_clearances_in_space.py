@@ -152,6 +152,19 @@ def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_fou
         assert through() == {("a/disc", "a/disc")}
 
 
+@given(pitch=st.floats(31.0, 70.0), first=st.floats(-4.0, 4.0))
+@settings(max_examples=20, deadline=None)
+def test_blocks_of_another_pitch_meet_those_of_a_row_of_many_that_their_places_say(pitch, first):
+    """Two intervals of 4 and 6 mm have something in common where their middles are nearer than 5 mm."""
+    row, blocks = 10.0 * np.arange(60), first + pitch * np.arange(8)
+    pin, block = Part("a/pin", "pin", "machined link", box(4 * mm, 4 * mm, 4 * mm), STEEL), cube("b/block", 6 * mm)
+    parts = ((pin, row), (block, blocks))
+    occurrences = tuple(Occurrence(part, tuple(placement(x * mm) for x in xs)) for part, xs in parts)
+    found = contacts(Tree((RigidBody("beam", occurrences),)))
+    apart = np.abs(row[:, None] - blocks).ravel()
+    assert sum(set(one.parts) == {"a/pin", "b/block"} for one in found.through) == np.count_nonzero(apart < 5 - 0.01)
+
+
 @settings(max_examples=15, deadline=None)
 @given(gap=st.floats(0.3, 6.0), eccentric=st.floats(0.0, 30.0))
 def test_a_roller_that_turns_beside_a_wall_comes_as_near_as_its_eccentricity(gap, eccentric):

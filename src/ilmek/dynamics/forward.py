@@ -48,6 +48,11 @@ __all__ = [
 MOST_STEPS = 200_000
 """Steps of the integrator in a run: about a minute. A drive that is much too strong for the masses needs more."""
 
+PACE, SLOW = 400, 0.1
+"""Steps after which a run is ended that advanced less than a share of what its most steps need to reach its end: at
+rest a load or drive that jumps there lets the integrator do no more than tremble.
+"""
+
 
 RunEvent: TypeAlias = Event[ForwardState]
 """An event of a run; its value is a function of the state of the input."""
@@ -174,10 +179,11 @@ def _advance(task: _Task, at: RunSample) -> _Integration:
     """Integrate to the end of the run; the last sample is the end."""
     solver, equation, samples = task.solver(at), at.equation, [at]
     happened: list[EventRecord[ForwardState]] = []
-    before = _values(task.events, at.state)
-    for _ in range(task.most_steps):
-        if solver.status != "running":
+    before, mark = _values(task.events, at.state), at.time
+    for step in range(1, task.most_steps + 1):
+        if solver.status != "running" or _crawls(task, step, solver.t - mark):
             break
+        mark = solver.t if step % PACE == 0 else mark
         solver.step()
         if solver.status == "failed" or _stopped_at_limit(solver, equation):
             _add_end(samples, RunSample(float(solver.t), np.array(solver.y), equation))
@@ -199,9 +205,14 @@ def _advance(task: _Task, at: RunSample) -> _Integration:
             equation, solver = after.equation, task.solver(after)
     if solver.status == "running":
         _add_end(samples, RunSample(float(solver.t), np.array(solver.y), equation))
-        reason = f"{task.most_steps} steps of the integrator reached {solver.t:.4g} s of {solver.t_bound:.4g} s"
+        reason = f"{step} steps of the integrator reached {solver.t:.4g} s of {solver.t_bound:.4g} s"
         return _Integration(samples, happened, RunEnd(EndKind.STEPS, samples[-1].state, reason))
     return _Integration(samples, happened, RunEnd(EndKind.TIME, samples[-1].state, "its duration was reached"))
+
+
+def _crawls(task: _Task, step: int, advance: float) -> bool:
+    """Whether the last `PACE` steps advanced [s] so little that the most steps will not reach the end."""
+    return step % PACE == 0 and advance * task.most_steps < SLOW * PACE * (task.end - task.start)
 
 
 def _add_end(samples: list[RunSample], last: RunSample) -> None:
@@ -266,8 +277,8 @@ def _ahead(solver: "scipy.integrate.DOP853", equation: Equation, distances: Floa
 
 
 def _stopped_at_limit(solver: "scipy.integrate.DOP853", equation: Equation) -> bool:
-    """Whether the input is at the end of its range: q' tends to 0 there while p does not, and q creeps."""
-    if isinstance(equation, GeneralEquation) or equation.table is not None:
+    """Whether one input is at the end of its range: q' tends to 0 there while √J q' does not, and q creeps."""
+    if len(equation.reduced.wheels) > 1 or (isinstance(equation, OneInputEquation) and equation.table is not None):
         return False
     if abs(float(solver.y[0]) - float(solver.y_old[0])) > CREEP:
         return False

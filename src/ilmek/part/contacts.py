@@ -335,7 +335,9 @@ def _alike(
     turned: Float[np.ndarray, "pairs 3 3"],
     moved: Float[np.ndarray, "pairs 3"],
 ) -> Iterator[tuple[list[int], bool]]:
-    """Pairs that lie alike, and whether they are of rows of many and lie alike but for their places along these."""
+    """Pairs that lie alike, and whether they are of rows of many and lie alike but for their places along these: of two
+    rows, or of a row beside one piece. Beside several pieces of another pitch the places decide what meets.
+    """
     kinds: dict[tuple[bool, bool, tuple[bytes, ...]], list[int]] = {}
     for k, (first, other) in enumerate(pairs.tolist()):
         own, its = pieces[first], pieces[other]
@@ -343,7 +345,12 @@ def _alike(
         along = None if row is None else own.position.rotation.T @ row
         key = own.rigid == its.rigid, row is None, pose_key(own.collider, its.collider, turned[k], moved[k], along)
         kinds.setdefault(key, []).append(k)
-    return ((alike, not key[1]) for key, alike in kinds.items())
+    for key, alike in kinds.items():
+        beside = {number for k in alike for number in pairs[k].tolist() if pieces[number].along is None}
+        if key[1] or len(beside) <= 1:
+            yield alike, not key[1]
+        else:
+            yield from (([k], False) for k in alike)
 
 
 def _groups(pieces: Sequence[_Piece], links: Int[np.ndarray, "links 2"]) -> tuple[TouchingParts, ...]:
