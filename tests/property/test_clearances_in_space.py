@@ -155,14 +155,15 @@ def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_fou
 @given(pitch=st.floats(31.0, 70.0), first=st.floats(-4.0, 4.0))
 @settings(max_examples=20, deadline=None)
 def test_blocks_of_another_pitch_meet_those_of_a_row_of_many_that_their_places_say(pitch, first):
-    """Two intervals of 4 and 6 mm have something in common where their middles are nearer than 5 mm."""
+    """Intervals of 4 and 6 mm overlap where their middles are nearer than 5 mm; 0.1 mm on the average is a touch."""
     row, blocks = 10.0 * np.arange(60), first + pitch * np.arange(8)
     pin, block = Part("a/pin", "pin", "machined link", box(4 * mm, 4 * mm, 4 * mm), STEEL), cube("b/block", 6 * mm)
     parts = ((pin, row), (block, blocks))
     occurrences = tuple(Occurrence(part, tuple(placement(x * mm) for x in xs)) for part, xs in parts)
     found = contacts(Tree((RigidBody("beam", occurrences),)))
     apart = np.abs(row[:, None] - blocks).ravel()
-    assert sum(set(one.parts) == {"a/pin", "b/block"} for one in found.through) == np.count_nonzero(apart < 5 - 0.01)
+    number = sum(set(one.parts) == {"a/pin", "b/block"} for one in found.through)
+    assert np.count_nonzero(apart < 4.85) <= number <= np.count_nonzero(apart < 4.95)
 
 
 @settings(max_examples=15, deadline=None)

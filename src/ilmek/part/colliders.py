@@ -32,8 +32,8 @@ COARSE = 1 * mm
 
 MANY = 40
 
-DEPTH, VOLUME = 0.1 * mm, 50 * mm**3
-"""Mean depth and volume in common below which parts touch: facets of a pin in those of its bore."""
+DEPTH, VOLUME = 0.1 * mm, 0.2 * mm**3
+"""Mean depth and volume in common below which parts touch: facets of a pin in those of its bore, and rounding."""
 
 LARGE = 20_000
 """Triangles above which a mesh is searched near the other part only."""

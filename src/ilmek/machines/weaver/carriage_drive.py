@@ -52,8 +52,11 @@ PLATE, PLAY = 5 * mm, 2 * mm
 AXLE, HUB_WALL, UNDER_MOTOR = 8 * mm, 4.5 * mm, 0.5 * mm
 """Diameter of the rollers' axles, wall of the pulley's hub, and its room under the motor [m]."""
 
-BLOCK, BEHIND = (20 * mm, 12 * mm), 22 * mm
-"""Width and depth of a block under the plate, and from the pulley's axis back to its middle [m]."""
+BLOCK = 20 * mm, 12 * mm
+"""Width and depth of a block under the plate [m]."""
+
+BEHIND = PULLEY_AT + BLOCK[1] / 2
+"""From the pulley's axis back to the middle of a block, which ends with the bracket: the carriages are before it [m]."""
 
 PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
 """Rear edge of the motor's plate before the end of the bracket [m]."""
