@@ -67,7 +67,7 @@ def test_a_bill_that_is_given_is_drawn_or_more_where_the_grippers_need_it() -> N
 
 def test_yarn_too_short_for_a_turn_that_is_given_fails() -> None:
     failed = [check.name for check in MACHINE.report(design(WeaverParams(crossing_turn=math.pi))).failed]
-    assert failed == ["yarn needed between the grippers"]
+    assert failed == ["yarn needed between the grippers", "room of the side grippers"]
 
 
 def test_no_asymmetric_knot_and_why() -> None:
@@ -108,7 +108,7 @@ def test_warps_that_close_on_a_gripper_tie_no_knot() -> None:
     ("settings", "why"),
     [
         (dict(crossing_turn=1.8), "the ends do not cross"),
-        (dict(jaw=0.0025), "jaws open 2.5 mm"),
+        (dict(jaw=0.002), "jaws open 2 mm"),
         (dict(crossing=0.008), "into the side grippers' arms"),
     ],
 )
@@ -126,12 +126,12 @@ def test_the_pair_must_leave_the_centre_gripper_room() -> None:
 
 def test_geometry_of_the_default_grippers() -> None:
     """The arm from the yarn, the turn that crosses the ends, the room before the arms; all by hand."""
-    params, by = WeaverParams(), design(WeaverParams()).grippers
-    held = params.billed - 2 * params.tail
-    assert by.apart == pytest.approx(held)
+    params, head = WeaverParams(), design(WeaverParams())
+    by = head.grippers
+    assert by.apart == pytest.approx(head.drawn - 2 * params.tail)
     assert by.end.real == pytest.approx(params.overlap)
     assert by.axis - by.pair / 2 == pytest.approx(by.warp / 2 + by.finger / 2 + by.clearance)
-    assert -by.end.imag - by.finger / 2 - by.depth == pytest.approx(params.clearance)
+    assert -by.end.imag - by.stagger - by.finger / 2 - by.depth == pytest.approx(params.clearance)
     assert clearance_min(by) == pytest.approx(params.clearance)
     assert crossing_point(by).real == 0.0
 
@@ -142,14 +142,33 @@ def test_taut_yarn_is_shorter_than_any_other_way_round_the_warps() -> None:
     far = np.array([by.opening + by.crossing])
     radius = (by.warp + by.yarn) / 2
     ring = radius * np.exp(1j * np.linspace(0.0, 2 * np.pi, 721)) - by.pair / 2
-    tip = complex(by.tip(far)[0])
     top = np.argmax(ring.imag)
-    around = min(
-        float(np.abs(np.diff(ring[top:at])).sum() + abs(ring[at - 1] - tip))
-        for at in range(top + 90, top + 420)
-        if _sees(tip, complex(ring[at - 1]), -by.pair / 2, radius)
+    around = sum(
+        min(
+            float(np.abs(np.diff(ring[top:at])).sum() + abs(ring[at - 1] - tip))
+            for at in range(top + 90, top + 420)
+            if _sees(tip, complex(ring[at - 1]), -by.pair / 2, radius)
+        )
+        for tip in (complex(by.tip(far)[0]), complex(-np.conj(by.tip(far, +1)[0])))
     )
-    assert float(taut(by, far)[0]) == pytest.approx(np.hypot(by.pair + 2 * around, by.lift), rel=1e-4)
+    assert float(taut(by, far)[0]) == pytest.approx(np.hypot(by.pair + around, by.lift), rel=1e-4)
+
+
+def test_the_arms_pass_one_another_where_their_ends_cross() -> None:
+    """Bars of the finger's thickness, sampled over their travel and their length: nowhere nearer than the clearance."""
+    params, by = WeaverParams(), design(WeaverParams()).grippers
+    along = np.linspace(0.0, 1.0, 60)
+    nearest = math.inf
+    for position in np.linspace(by.opening, by.opening + by.crossing, 60):
+        turn = by.turned(position)
+        bars = []
+        for hand in (-1, 1):
+            tip = complex(by.tip(np.array(position), hand))
+            rod = np.array([hand * by.axis, hand * by.lift / 2, tip.imag])
+            arm = by.arm * np.array([hand * math.cos(float(turn)), math.sin(float(turn)), 0.0])
+            bars.append(rod + along[:, None] * arm)
+        nearest = min(nearest, float(np.linalg.norm(bars[0][:, None] - bars[1], axis=2).min()))
+    assert nearest >= params.finger + params.clearance - 1e-9
 
 
 def _sees(tip: complex, place: complex, axis: float, radius: float) -> bool:

@@ -48,7 +48,7 @@ class AxisScrew:
     static: float = result("1", "safety of a screw's nut at rest, C0 over its largest load", name="screw_static_safety")
     critical: float = result("1", "speed of a screw over its critical speed", name="screw_critical_share")
     speed_value: float = result("m/s", "diameter of a screw times its angular speed", name="screw_speed_value")
-    life: float = result("h", "life of a screw's nut, ISO 3408-5", name="screw_life")
+    life: float | None = result("h", "life of a screw's nut, ISO 3408-5", name="screw_life", optional=True)
 
 
 @record
@@ -82,9 +82,13 @@ def screw_checks(screw: AxisScrew) -> tuple[Check, ...]:
             "m/s",
             "assumed by this project: parameter axis_speed_value",
         ).with_cure(slower),
-        at_least(
-            "life of the screws", screw.life, screw.required_life, "h", f"ISO 3408-5, axis_life; {rated}"
-        ).with_cure(more),
+        *(
+            at_least("life of the screws", life, screw.required_life, "h", f"ISO 3408-5, axis_life; {rated}").with_cure(
+                more
+            )
+            for life in (screw.life,)
+            if life is not None
+        ),
     )
 
 
@@ -99,7 +103,7 @@ def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
     most, quickest, turned = float(force.max()), float(speed.max()), float(speed.sum())
     mean = float(np.sum(force**3 * speed) / turned) ** (1 / 3) if turned > 0 else 0.0
     whirl = _ROOT**2 * ball.core / 4 * math.sqrt(STEEL.modulus / STEEL.density) / load.length**2
-    turns = (dynamic / mean) ** 3 * 1e6 if mean > 0 else math.inf
+    turns = (dynamic / mean) ** 3 * 1e6 if mean > 0 else 0.0
     return AxisScrew(
         required_life=params.axis_life,
         speed_limit=params.axis_speed_value,
@@ -108,5 +112,5 @@ def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
         static=static / most if most > 0 else math.inf,
         critical=quickest / whirl,
         speed_value=diameter * quickest,
-        life=turns * turn / float(speed.mean()) if turned > 0 else math.inf,
+        life=turns * turn / float(speed.mean()) if turned > 0 and mean > 0 else None,
     )

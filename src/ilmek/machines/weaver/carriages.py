@@ -218,7 +218,7 @@ def screw_id(name: str) -> str:
 def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
     """The twisted bar of a side gripper, in its frame: at each travel its section in the nut is level."""
     by, shape = weaver.grippers, weaver.shape
-    begin = shape.carriage + BAR
+    begin = weaver.tool_bodies.end(name)
     straight = shape.partition + PARTITION + NUT / 2 - begin + by.opening
     stations = (0.0, straight, straight + by.crossing, straight + by.crossing + 2 * NUT)
     part = Part(

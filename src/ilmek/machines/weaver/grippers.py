@@ -7,18 +7,19 @@ across it, of length rho, at whose end the yarn is held. The rods stand at -+a, 
     a = g/2 + D/2 + t/2 + e             D warp's diameter, t thickness of rod and arm, e clearance
 
 and the cam's travel p beyond the opened warps moves a screw guide: linear and turning, tau = turn p / crossing.
-The left tip (the right one is its mirror image) is at
+The left tip is at
 
     x = -(a + rho cos tau),     y = y0 - p,     z = -+h/2 + rho sin tau,     y0 = D/2 + t/2 + e
 
-so it goes round its warp from outside. h = t + e keeps the two arms one above the other where the ends cross; both turn
-upwards, so that the knot forms at the height of the centre gripper. At the beginning the yarn lies straight
-between the tips, sqrt(4 (a + rho)² + h²): the yarn drawn less its two tails, which gives rho. At the end the tips are c
-past the middle: cos turn = -(a + c)/rho. There each end of the yarn comes from behind its warp, from -g/2 - i r,
-r = (D + d)/2, d the yarn's diameter, and crosses the middle at the depth r + k (Y - r), k = g / (g + 2 c), Y = -y. The
-centre gripper reaches d/2 beyond that, and keeps e from the arms, if
+so it goes round its warp from outside; the right one is its mirror image, s before it. Both arms turn upwards, so that
+the knot forms at the height of the centre gripper, and cross each other: s = t + e keeps one before the other, and h of
+the same size one end above the other. At the beginning the yarn lies straight between the tips,
+sqrt(4 (a + rho)² + h² + s²): the yarn drawn less its two tails, which gives rho. At the end the tips are c past the
+middle: cos turn = -(a + c)/rho. There each end of the yarn comes from behind its warp, from -g/2 - i r, r = (D + d)/2,
+d the yarn's diameter, and the left one crosses the middle at the depth r + k (Y - r), k = g / (g + 2 c), Y = -y, the
+deeper of the two. The centre gripper reaches d/2 beyond that, and keeps e from the right arm, if
 
-    Y = r + (t/2 + e + d/2) / (1 - k),     crossing = y0 + Y
+    Y = r + (s + t/2 + e + d/2) / (1 - k),     crossing = y0 + Y
 
 Meanwhile the taut yarn about both warps needs, from each tip P at the distance q of its warp's axis,
 
@@ -92,11 +93,16 @@ class Grippers:
     @property
     def apart(self) -> float:
         """Distance of the tips before they turn, and length of the yarn straight between them [m]."""
-        return math.hypot(2 * (self.axis + self.arm), self.lift)
+        return math.hypot(2 * (self.axis + self.arm), self.lift, self.stagger)
 
     @property
     def lift(self) -> float:
         """Distance h of the two rods along the warps [m]."""
+        return self.finger + self.clearance
+
+    @property
+    def stagger(self) -> float:
+        """Distance s of the right arm before the left one, along the screw [m]."""
         return self.finger + self.clearance
 
     @property
@@ -119,10 +125,11 @@ class Grippers:
         """Rotation of the side grippers by the screw [rad] at positions of their cam [m]."""
         return np.asarray(self.turn * np.clip((position - self.opening) / self.crossing, 0.0, 1.0))
 
-    def tip(self, position: RealField) -> ComplexArray:
-        """The left tip in plan view [m] at positions of the side grippers' cam [m]."""
-        across = -(self.axis + self.arm * np.cos(self.turned(position)))
-        return np.asarray(across + 1j * (self.front + self.opening - position))
+    def tip(self, position: RealField, hand: int = -1) -> ComplexArray:
+        """The left tip (hand -1) or the right one (+1) in plan view [m] at positions of the side grippers' cam [m]."""
+        across = self.axis + self.arm * np.cos(self.turned(position))
+        before = self.stagger if hand > 0 else 0.0
+        return np.asarray(hand * across + 1j * (self.front + before + self.opening - position))
 
     def centre(self, position: RealField) -> ComplexArray:
         """The centre gripper's tip in plan view [m] at positions of its cam [m]."""
@@ -136,8 +143,8 @@ class Grippers:
 
 def grippers_for(params: WeaverParams, drawn: float) -> Grippers:
     """The grippers for a length of yarn drawn [m]; where it is too short for the ends to cross, they turn by pi."""
-    axis, lift = axis_of(params), params.finger + params.clearance
-    arm = max(math.sqrt(max((drawn - 2 * params.tail) ** 2 - lift**2, 0.0)) / 2 - axis, 0.0)
+    axis, apart = axis_of(params), params.finger + params.clearance
+    arm = max(math.sqrt(max((drawn - 2 * params.tail) ** 2 - 2 * apart**2, 0.0)) / 2 - axis, 0.0)
     loose = Grippers(
         pair=params.pair,
         warp=params.warp,
@@ -158,7 +165,7 @@ def grippers_for(params: WeaverParams, drawn: float) -> Grippers:
 def crossing_of(params: WeaverParams) -> float:
     """Travel along the screw that leaves the centre gripper room before the arms [m]."""
     share = params.pair / (params.pair + 2 * params.overlap)
-    deep = (params.finger / 2 + params.clearance + params.yarn / 2) / (1 - share)
+    deep = (1.5 * params.finger + 2 * params.clearance + params.yarn / 2) / (1 - share)
     front = (params.warp + params.finger) / 2 + params.clearance
     return front + (params.warp + params.yarn) / 2 + deep
 
@@ -176,7 +183,7 @@ def yarn_needed(params: WeaverParams) -> float:
     """
     axis = axis_of(params)
     reach = axis + (axis + params.overlap if params.crossing_turn is None else 0.0)
-    low = math.hypot(2 * reach, params.finger + params.clearance) + 2 * params.tail
+    low = math.hypot(2 * reach, math.sqrt(2) * (params.finger + params.clearance)) + 2 * params.tail
     if params.crossing_turn is not None or _reaches(params, low):
         return low
     high = 2 * low
@@ -202,9 +209,10 @@ def _reaches(params: WeaverParams, drawn: float) -> bool:
 def taut(grippers: Grippers, position: FloatArray) -> FloatArray:
     """Length of the taut yarn between the tips [m] at positions of the side grippers' cam [m], going forward."""
     tip = grippers.tip(position)
-    straight, wrap = wrapped(grippers, tip)
-    around = grippers.pair + 2 * (grippers.wrap_radius * wrap + straight)
-    across = np.where(wrap <= 0, 2 * np.abs(tip.real), around)
+    ends = [wrapped(grippers, tip + 1j * before) for before in (0.0, grippers.stagger)]
+    around = grippers.pair + sum(grippers.wrap_radius * wrap + straight for straight, wrap in ends)
+    free = (ends[0][1] <= 0) & (ends[1][1] <= 0)
+    across = np.where(free, np.hypot(2 * tip.real, grippers.stagger), around)
     return np.asarray(np.hypot(across, grippers.lift))
 
 
@@ -236,7 +244,7 @@ def crossing_point(grippers: Grippers) -> complex:
 def clearance_min(grippers: Grippers) -> float:
     """Least clearance of a side gripper and its warp [m] along the screw; below 0 they overlap."""
     position = np.linspace(0.0, grippers.opening + grippers.crossing, SAMPLES)
-    tip = grippers.tip(position)
+    tip = np.concatenate([grippers.tip(position), grippers.tip(position) + 1j * grippers.stagger])
     inner = np.maximum(tip.real, -grippers.axis)  # the arm reaches from the rod to the tip, across
     outer = np.minimum(tip.real, -grippers.axis)
     nearest = np.clip(-grippers.pair / 2, outer, inner)

@@ -186,7 +186,7 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
     height = grippers.lift + grippers.finger
     tied = low + height / 2
     front, tip = grippers.warp / 2 + params.standoff, grippers.front + grippers.opening
-    face = max(tip + params.pull_back, drawn / 2) + params.standoff
+    face = max(tip + grippers.stagger + params.pull_back, drawn / 2) + params.standoff
     carriage = face + SHEET + APART + COLLARS + grippers.opening + grippers.crossing
     above = max(
         low - params.clearance + params.opener.height, tied + grippers.height + grippers.finger / 2 + params.jaw

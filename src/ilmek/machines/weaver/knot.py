@@ -36,8 +36,7 @@ def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> TiedKnot:
         return no_knot(wrong)
 
     def ends(samples: int) -> tuple[SampledPath, SampledPath]:
-        left = led(cyclogram, grippers, samples)
-        return left, SampledPath(-np.conj(left.points), left.lengths)
+        return tuple(led(cyclogram, grippers, samples, hand=hand) for hand in (-1, 1))
 
     return knot_of_ends(ends, grippers.warps, keep_out=grippers.warp / 2)
 
@@ -53,12 +52,12 @@ def proof_text(tied: TiedKnot) -> str:
     return tied.words if kind is None else knot(kind).name
 
 
-def led(cyclogram: Cyclogram, grippers: Grippers, samples: int) -> SampledPath:
-    """Path of the left end from where its gripper holds it to where the centre gripper releases it."""
+def led(cyclogram: Cyclogram, grippers: Grippers, samples: int, *, hand: int) -> SampledPath:
+    """Path of the left end (hand -1) or the right one (+1), from its gripper's grasp to the centre gripper's release."""
     grasped, taken, released = led_between(cyclogram)
     side = _positions(cyclogram.track(SIDE_MOTION), grasped, taken, samples)
     centre = _positions(cyclogram.track(CENTRE_MOTION), taken, released, samples)
-    by_side = (grippers.tip(side), np.abs(np.diff(side)) * grippers.reach_bound)
+    by_side = (grippers.tip(side, hand), np.abs(np.diff(side)) * grippers.reach_bound)
     return end_path([by_side, (grippers.centre(centre), np.abs(np.diff(centre)))])
 
 
@@ -99,7 +98,7 @@ def _hand_over(grippers: Grippers, jaw: float) -> str:
     if needed > jaw:
         shown = format_quantity(needed, "mm"), format_quantity(jaw, "mm")
         return f"the ends cross {shown[0]} high, the centre gripper's jaws open {shown[1]}"
-    room = -tip.imag - grippers.finger / 2 - grippers.depth
+    room = -tip.imag - grippers.stagger - grippers.finger / 2 - grippers.depth
     if room < -ROUNDING:
         return f"the centre gripper's tip runs {format_quantity(-room, 'mm')} into the side grippers' arms"
     return "" if crossing_point(grippers).imag < -grippers.warp / 2 else "the ends cross before the warps"

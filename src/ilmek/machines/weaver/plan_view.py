@@ -23,19 +23,20 @@ _RING = np.exp(1j * turn * np.arange(24) / 24)
 def plan_view(weaver: Weaver) -> Drawing:
     """Side grippers before they turn, dashed, and where their ends cross; the paths of the ends; the centre gripper."""
     by = weaver.grippers
-    start, end = (_bent(by, np.array([at])) for at in (by.opening, by.opening + by.crossing))
-    path = by.tip(np.linspace(by.opening, by.opening + by.crossing, EACH))
+    start, end = (
+        [_bent(by, np.array([at]), hand)[0] for hand in (-1, 1)] for at in (by.opening, by.opening + by.crossing)
+    )
+    crossing = np.linspace(by.opening, by.opening + by.crossing, EACH)
     grip = np.array([1j * 2 * ROD, -1j * by.depth])
     strokes = (
         *(Stroke(warp + by.warp / 2 * _RING, "outline", closed=True, filled=True) for warp in by.warps),
-        *(Stroke(one[0], "construction") for one in (start, _mirrored(start))),
-        *(Stroke(one, "path") for one in (path, _mirrored(path))),
-        Stroke(end[0], "link", "left side gripper"),
-        Stroke(_mirrored(end)[0], "link", "right side gripper"),
+        *(Stroke(bent, "construction") for bent in start),
+        *(Stroke(by.tip(crossing, hand), "path") for hand in (-1, 1)),
+        *(Stroke(bent, "link", f"{side} side gripper") for side, bent in zip(("left", "right"), end, strict=True)),
         Stroke(grip, "outline", "centre gripper"),
         Stroke(_yarn(weaver), "yarn", "yarn"),
     )
-    dots = tuple(Dot(complex(tip), "", "point") for tip in (by.end, -by.end.conjugate()))
+    dots = tuple(Dot(complex(bent[-1]), "", "point") for bent in end)
     note = f"{weaver.knot_why}; the pile is upwards, seen along the warps; dashed: before the grippers turn"
     return Drawing("weaver-plan", "The ends of the pile round the pair of warps", strokes, dots, note=note)
 
@@ -45,46 +46,40 @@ def animation(weaver: Weaver) -> Animation:
     by, angle = weaver.grippers, np.arange(FRAMES) * (turn / FRAMES)
     side = sample(weaver.cyclogram.track(SIDE_MOTION), angle).position
     centre = sample(weaver.cyclogram.track(CENTRE_MOTION), angle).position
-    bars, tip = _bent(by, side), by.centre(centre)
-    at, points = _led(weaver)
-    yarn = yarn_over_time(((at, points), (at, _mirrored(points))), angle, ALONG)
+    bars, tip = [_bent(by, side, hand) for hand in (-1, 1)], by.centre(centre)
+    yarn = yarn_over_time([_led(weaver, hand) for hand in (-1, 1)], angle, ALONG)
     strokes = (
         *_warps(weaver, side),
         MovingStroke(yarn, "outline", "yarn"),
-        MovingStroke(bars, "link", "left gripper"),
-        MovingStroke(_mirrored(bars), "link", "right gripper"),
+        *(MovingStroke(bent, "link", f"{side} gripper") for side, bent in zip(("left", "right"), bars, strict=True)),
         MovingStroke(np.stack([tip, tip + 1j * 2 * ROD], -1), "outline", "centre gripper"),
     )
-    dots = tuple(MovingDot(ends, "", "point") for ends in (bars[:, -1], _mirrored(bars)[:, -1]))
+    dots = tuple(MovingDot(bent[:, -1], "", "point") for bent in bars)
     note = "The yarn lies where its ends went, not yet tightened; the pile is upwards."
     still = Drawing("weaver-moving", "A knot in plan view", (), note=note)
     readings = (Reading("screw", by.turned(side), "deg"), Reading("side grippers", side, "mm"))
     return Animation(still, Axis("cam angle", "deg"), angle, strokes, dots, period=weaver.cycle, readings=readings)
 
 
-def _bent(by: Grippers, position: FloatArray) -> Complex[np.ndarray, "n 3"]:
-    """Rod and arm of the left gripper: far end of the rod, its elbow, the tip."""
-    tip = by.tip(position)
-    elbow = -by.axis + 1j * tip.imag
+def _bent(by: Grippers, position: FloatArray, hand: int) -> Complex[np.ndarray, "n 3"]:
+    """Rod and arm of the left gripper (hand -1) or the right one: far end of the rod, its elbow, the tip."""
+    tip = by.tip(position, hand)
+    elbow = hand * by.axis + 1j * tip.imag
     return np.stack([elbow + 1j * ROD, elbow, tip], -1)
-
-
-def _mirrored(points: ComplexArray) -> ComplexArray:
-    return np.asarray(-np.conj(points))
 
 
 def _yarn(weaver: Weaver) -> ComplexArray:
     """The whole path of both ends, the left one backwards: the knot as it lies."""
-    left = led(weaver.cyclogram, weaver.grippers, EACH).points
-    return np.concatenate([left[::-1], _mirrored(left)])
+    left, right = (led(weaver.cyclogram, weaver.grippers, EACH, hand=hand).points for hand in (-1, 1))
+    return np.concatenate([left[::-1], right])
 
 
-def _led(weaver: Weaver) -> tuple[FloatArray, ComplexArray]:
-    """Cam angles at which the left end is led [rad], and its positions then [m]."""
+def _led(weaver: Weaver, hand: int) -> tuple[FloatArray, ComplexArray]:
+    """Cam angles at which the left end (hand -1) or the right one is led [rad], and its positions then [m]."""
     by, tracks = weaver.grippers, weaver.cyclogram
     grasped, taken, released = led_between(tracks)
     by_side, by_centre = np.linspace(grasped, taken, 6 * EACH), np.linspace(taken, released, 2 * EACH)
-    side = by.tip(sample(tracks.track(SIDE_MOTION), by_side).position)
+    side = by.tip(sample(tracks.track(SIDE_MOTION), by_side).position, hand)
     centre = by.centre(sample(tracks.track(CENTRE_MOTION), by_centre).position)
     return np.concatenate([by_side, by_centre]), np.concatenate([side, centre])
 

@@ -132,7 +132,13 @@ class ToolBodies:
     def tip(self, name: str) -> float:
         """Where the tip of a gripper is at rest [m from the warps], by the id of its body."""
         by = self.grippers
-        return by.stroke - by.depth if name == CENTRE else by.front + by.opening
+        if name == CENTRE:
+            return by.stroke - by.depth
+        return by.front + by.opening + (by.stagger if name == RIGHT else 0.0)
+
+    def end(self, name: str) -> float:
+        """Where the rod of a side gripper ends at rest [m from the warps], by the id of its body."""
+        return self.tools.carriage + BAR + self.tip(name) - self.tip(LEFT)
 
     @property
     def jaw(self) -> float:
@@ -145,7 +151,7 @@ class ToolBodies:
         They turn in the carriage of the opener. The arm's end is half as thick, beside the jaws' finger.
         """
         by, half, jaw = self.grippers, self.grippers.finger / 2, self.jaw
-        length = self.tools.carriage + BAR - self.tip(LEFT)
+        length = self.end(LEFT) - self.tip(LEFT)
         rod = Placed(tube(by.finger, wall_of(self.params), length + half), (placement(z=-half),))
         members: list[Placed] = []
         if by.arm - jaw > half:

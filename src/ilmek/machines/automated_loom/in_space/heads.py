@@ -250,10 +250,12 @@ def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
         for name, last in ((SIDE_MOTION, taken), (CENTRE_MOTION, released), (SLEY, turn), (CARRIAGE, turn))
     )
     drawn = angle > taken
-    tip = np.where(drawn, 1j * by.centre(centre).imag, by.tip(side))
-    wrap = np.where(drawn, wrapped(by, tip, out=True)[1], wrapped(by, tip)[1])
-    half = [_half(by, own, on) for own, on in zip(tip, wrap, strict=True)]
-    flat = np.stack([np.concatenate([own, -np.conj(own[::-1])]) for own in half])
+    halves = []
+    for before in (0.0, by.stagger):  # the right half is the mirror image of one whose tip is the stagger before it
+        tip = np.where(drawn, 1j * by.centre(centre).imag, by.tip(side) + 1j * before)
+        wrap = np.where(drawn, wrapped(by, tip, out=True)[1], wrapped(by, tip)[1])
+        halves.append([_half(by, own, on) for own, on in zip(tip, wrap, strict=True)])
+    flat = np.stack([np.concatenate([left, -np.conj(right[::-1])]) for left, right in zip(*halves, strict=True)])
     middle = weaver.tool_bodies.tied + by.arm * np.sin(by.turned(side))
     far = np.cumsum(np.abs(np.diff(flat, axis=1, prepend=flat[:, :1])), axis=1)
     y = middle[:, None] + np.where(drawn, 0.0, by.lift)[:, None] * (far / far[:, -1:] - 0.5)

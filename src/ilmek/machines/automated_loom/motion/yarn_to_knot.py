@@ -48,9 +48,9 @@ def _path(weaver: Weaver, until: float) -> ComplexArray:
     """The yarn's path at a cam angle [rad]: the left end's path backwards, then the right end's [m]."""
     by, tracks = weaver.grippers, weaver.cyclogram
     grasped, taken, _ = led_between(tracks)
-    side = by.tip(sample(tracks.track(SIDE_MOTION), np.linspace(grasped, min(until, taken), _SAMPLES)).position)
-    left = side
+    side = sample(tracks.track(SIDE_MOTION), np.linspace(grasped, min(until, taken), _SAMPLES)).position
+    ends = [by.tip(side, hand) for hand in (-1, 1)]
     if until > taken:
         centre = sample(tracks.track(CENTRE_MOTION), np.linspace(taken, until, _SAMPLES)).position
-        left = np.concatenate([side, by.centre(centre)])
-    return np.concatenate([left[::-1], -np.conj(left)])
+        ends = [np.concatenate([end, by.centre(centre)]) for end in ends]
+    return np.concatenate([ends[0][::-1], ends[1]])

@@ -23,7 +23,7 @@ from ilmek.machines.knotting_four_bar.hands.hand import TyingHand
 from ilmek.machines.knotting_four_bar.hands.section import FINGER, FOOT
 from ilmek.machines.link_tree import body_id, inertia_of
 from ilmek.machines.own_linkage.construction import Construction, construction
-from ilmek.machines.own_linkage.shafts import housing_length, shaft_lengths
+from ilmek.machines.own_linkage.shafts import housing_length, shaft_lengths, shaft_seat
 from ilmek.machines.own_linkage.sizes import usual_diameter
 from ilmek.machines.own_linkage.tree import own_tree
 from ilmek.part.part import Bought, Part, bought_part
@@ -250,8 +250,10 @@ def _shaft_end(made: HandParts) -> float:
 
 
 def _servo_pillars(made: HandParts, servo: MicroServo) -> tuple[complex, ...]:
-    """Axes of both pillars of a servo's plate in the hand's frame [m]: beside it, along u."""
-    aside = servo.size[1] / 2 + SERVO_SCREW
+    """Axes of both pillars of a servo's plate in the hand's frame [m]: beside it and the crank's housing, along u."""
+    axis = next(axis for axis in made.built.axes if axis.driven)
+    housing = shaft_seat(made.built.studs[axis.name])[2]
+    aside = max(servo.size[1] / 2 + SERVO_SCREW, housing / 2 + SERVO_SCREW / 2 + CLEAR)
     return made.hand.four_bar.a0 - aside, made.hand.four_bar.a0 + aside
 
 
