@@ -160,12 +160,12 @@ def test_the_arms_pass_one_another_where_their_ends_cross() -> None:
     along = np.linspace(0.0, 1.0, 60)
     nearest = math.inf
     for position in np.linspace(by.opening, by.opening + by.crossing, 60):
-        turn = by.turned(position)
+        turn = float(by.turned(position))
         bars = []
         for hand in (-1, 1):
             tip = complex(by.tip(np.array(position), hand))
             rod = np.array([hand * by.axis, hand * by.lift / 2, tip.imag])
-            arm = by.arm * np.array([hand * math.cos(float(turn)), math.sin(float(turn)), 0.0])
+            arm = by.arm * np.array([hand * math.cos(turn), math.sin(turn), 0.0])
             bars.append(rod + along[:, None] * arm)
         nearest = min(nearest, float(np.linalg.norm(bars[0][:, None] - bars[1], axis=2).min()))
     assert nearest >= params.finger + params.clearance - 1e-9

@@ -220,10 +220,10 @@ class GeneralEquation:
             return None
         return replace(self, signs=tuple(held.tolist()))
 
-    def departed(self, time: float, row: Row, way: float) -> "GeneralEquation":
+    def departed(self, time: float, row: Row, direction: float) -> "GeneralEquation":
         """The equation of one input that leaves its rest in a direction, +1 or -1, with the signs just ahead."""
         ahead = row.copy()
-        ahead[0] += way * AHEAD
+        ahead[0] += direction * AHEAD
         terms = self.terms(time, ahead) if self.dry else None
         if terms is None:
             return self

@@ -80,13 +80,13 @@ def _input_at_rest(solver: "scipy.integrate.DOP853", equation: Equation) -> RunS
     return None if abs(ahead - back) <= RESTING * (abs(ahead) + abs(back)) else rest
 
 
-def _departed(rest: RunSample, way: float) -> tuple[RunSample, float]:
+def _departed(rest: RunSample, direction: float) -> tuple[RunSample, float]:
     """The state just after a rest of one input, in a direction, and the derivative of its speed or momentum there."""
     row = rest.row.copy()
-    row[1] = way * LEAST
+    row[1] = direction * LEAST
     equation = rest.equation
     if isinstance(equation, GeneralEquation):
-        equation = equation.departed(rest.time, row, way)
+        equation = equation.departed(rest.time, row, direction)
     return RunSample(rest.time, row, equation), float(equation.rates(rest.time, row)[1])
 
 

@@ -56,7 +56,7 @@ BLOCK = 20 * mm, 12 * mm
 """Width and depth of a block under the plate [m]."""
 
 BEHIND = PULLEY_AT + BLOCK[1] / 2
-"""From the pulley's axis back to the middle of a block, which ends with the bracket: the carriages are before it [m]."""
+"""From the pulley's axis back to the middle of a block [m]; it ends with the bracket, behind the carriages."""
 
 PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
 """Rear edge of the motor's plate before the end of the bracket [m]."""

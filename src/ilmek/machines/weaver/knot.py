@@ -36,7 +36,7 @@ def tied_by(cyclogram: Cyclogram, grippers: Grippers, jaw: float) -> TiedKnot:
         return no_knot(wrong)
 
     def ends(samples: int) -> tuple[SampledPath, SampledPath]:
-        return tuple(led(cyclogram, grippers, samples, hand=hand) for hand in (-1, 1))
+        return led(cyclogram, grippers, samples, hand=-1), led(cyclogram, grippers, samples, hand=1)
 
     return knot_of_ends(ends, grippers.warps, keep_out=grippers.warp / 2)
 
@@ -53,7 +53,7 @@ def proof_text(tied: TiedKnot) -> str:
 
 
 def led(cyclogram: Cyclogram, grippers: Grippers, samples: int, *, hand: int) -> SampledPath:
-    """Path of the left end (hand -1) or the right one (+1), from its gripper's grasp to the centre gripper's release."""
+    """Path of the left end (hand -1) or the right one, from its gripper's grasp to the centre gripper's release."""
     grasped, taken, released = led_between(cyclogram)
     side = _positions(cyclogram.track(SIDE_MOTION), grasped, taken, samples)
     centre = _positions(cyclogram.track(CENTRE_MOTION), taken, released, samples)
