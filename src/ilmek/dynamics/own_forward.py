@@ -26,6 +26,9 @@ SAMPLES = 600
 RTOL, MOST_STEPS = 1e-8, 20_000
 """Relative error of a step of the integrator, and its most steps."""
 
+REST = 1e-7
+"""Speed over the greatest of a run that counts as rest."""
+
 
 @record
 class OwnForward:
@@ -55,8 +58,8 @@ class OwnForward:
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         inertia = self.run.reduced.terms(self.run.position).inertia
         size = np.fmax(greatest(required), greatest(inertia * self.run.acceleration))
-        moving = np.where(self.run.speed != 0, required - self.run.effort, 0.0)
-        return greatest(moving) / float(size) if size > 0 else 0.0
+        moving = np.abs(self.run.speed) > REST * greatest(self.run.speed)
+        return greatest(np.where(moving, required - self.run.effort, 0.0)) / float(size) if size > 0 else 0.0
 
     @property
     def checks(self) -> tuple[Check, ...]:

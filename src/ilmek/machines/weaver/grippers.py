@@ -29,6 +29,7 @@ Meanwhile the taut yarn about both warps needs, from each tip P at the distance 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -208,12 +209,20 @@ def _reaches(params: WeaverParams, drawn: float) -> bool:
 
 def taut(grippers: Grippers, position: FloatArray) -> FloatArray:
     """Length of the taut yarn between the tips [m] at positions of the side grippers' cam [m], going forward."""
-    tip = grippers.tip(position)
-    ends = [wrapped(grippers, tip + 1j * before) for before in (0.0, grippers.stagger)]
-    around = grippers.pair + sum(grippers.wrap_radius * wrap + straight for straight, wrap in ends)
-    free = (ends[0][1] <= 0) & (ends[1][1] <= 0)
-    across = np.where(free, np.hypot(2 * tip.real, grippers.stagger), around)
+    tips = [grippers.tip(position) + 1j * before for before in (0.0, grippers.stagger)]
+    ends = [wrapped(grippers, tip) for tip in tips]
+    front = front_of(grippers, tips, [wrap for _, wrap in ends])
+    across = np.zeros(np.shape(position))
+    for tip, (straight, wrap) in zip(tips, ends, strict=True):
+        around = grippers.pair / 2 + grippers.wrap_radius * wrap + straight
+        across += np.where(wrap <= 0, np.hypot(tip.real, tip.imag - front), around)
     return np.asarray(np.hypot(across, grippers.lift))
+
+
+def front_of(grippers: Grippers, tips: Sequence[ComplexArray], wraps: Sequence[FloatArray]) -> FloatArray:
+    """Where the taut yarn to both tips, the right one mirrored, passes the middle before the warps' axes [m]."""
+    free = (wraps[0] <= 0) & (wraps[1] <= 0)
+    return np.where(free, (tips[0].imag + tips[1].imag) / 2, grippers.wrap_radius)
 
 
 def wrapped(grippers: Grippers, tip: ComplexArray, *, out: bool = False) -> tuple[FloatArray, FloatArray]:

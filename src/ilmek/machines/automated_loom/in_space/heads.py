@@ -31,7 +31,7 @@ from ilmek.machines.link_tree import body_id
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cutter import eccentricity, half_turn
 from ilmek.machines.weaver.followers import follower_id
-from ilmek.machines.weaver.grippers import Grippers, wrapped
+from ilmek.machines.weaver.grippers import Grippers, front_of, wrapped
 from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
 from ilmek.machines.weaver.knife import BLADE_BODY, ECCENTRIC_BODY
 from ilmek.machines.weaver.knot import led_between
@@ -250,12 +250,15 @@ def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
         for name, last in ((SIDE_MOTION, taken), (CENTRE_MOTION, released), (SLEY, turn), (CARRIAGE, turn))
     )
     drawn = angle > taken
-    halves = []
-    for before in (0.0, by.stagger):  # the right half is the mirror image of one whose tip is the stagger before it
-        tip = np.where(drawn, 1j * by.centre(centre).imag, by.tip(side) + 1j * before)
-        wrap = np.where(drawn, wrapped(by, tip, out=True)[1], wrapped(by, tip)[1])
-        halves.append([_half(by, own, on) for own, on in zip(tip, wrap, strict=True)])
-    flat = np.stack([np.concatenate([left, -np.conj(right[::-1])]) for left, right in zip(*halves, strict=True)])
+    # The right half is the mirror image of one whose tip is the stagger before the left one.
+    tips = [np.where(drawn, 1j * by.centre(centre).imag, by.tip(side) + 1j * before) for before in (0.0, by.stagger)]
+    wraps = [np.where(drawn, wrapped(by, tip, out=True)[1], wrapped(by, tip)[1]) for tip in tips]
+    front = front_of(by, tips, wraps)
+    left, right = (
+        np.stack([_half(by, *at) for at in zip(tip, wrap, front, strict=True)])
+        for tip, wrap in zip(tips, wraps, strict=True)
+    )
+    flat = np.concatenate([left, -np.conj(right[:, ::-1])], axis=1)
     middle = weaver.tool_bodies.tied + by.arm * np.sin(by.turned(side))
     far = np.cumsum(np.abs(np.diff(flat, axis=1, prepend=flat[:, :1])), axis=1)
     y = middle[:, None] + np.where(drawn, 0.0, by.lift)[:, None] * (far / far[:, -1:] - 0.5)
@@ -268,9 +271,9 @@ def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
     return (SceneYarn("yarn of the knot", "yarn of the knot", HEAD, KNOT, angle, points, pile),)
 
 
-def _half(by: Grippers, tip: complex, wrap: float) -> ComplexArray:
-    """The left half of the taut yarn in the plan, from its end at a tip to the middle [m]."""
+def _half(by: Grippers, tip: complex, wrap: float, front: float) -> ComplexArray:
+    """The left half of the taut yarn in the plan, from its end at a tip to the middle, which is at `front` [m]."""
     if wrap <= 0:
-        return np.linspace(tip, 1j * tip.imag, _ON_WARP + 1, endpoint=False)
+        return np.linspace(tip, 1j * front, _ON_WARP + 1, endpoint=False)
     on_warp = by.wrap_radius * np.exp(1j * (turn / 4 + np.linspace(wrap, 0.0, _ON_WARP))) - by.pair / 2
     return np.concatenate([[tip], on_warp])
