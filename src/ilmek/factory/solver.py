@@ -6,7 +6,7 @@ or that of the looms' capacity (`bound`).
 
 import importlib
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ilmek.errors import ParameterError
@@ -26,6 +26,7 @@ class SolvedPlan:
 
     status      optimal, feasible (a better plan may exist), or none (the plan is the one given)
     repeatable  whether no clock stopped the solver: it then gives the same plan again
+    fine        of a late carpet in the search; no plan that costs less than it has fewer than `least_late` late ones
     """
 
     plan: FactoryPlan
@@ -33,6 +34,8 @@ class SolvedPlan:
     horizon: int
     status: str
     repeatable: bool
+    fine: int = 0
+    least_late: int = 0
 
 
 def import_solver() -> Any:
@@ -52,6 +55,26 @@ def horizon_of(plan: FactoryPlan) -> int:
     return min(max(plan.end, *(job.due for job in factory.jobs), *lone) + WEEK * DAY, MOST_DAYS * DAY)
 
 
+def lone_costs(factory: Factory) -> int:
+    """The bound of the cost of all plans in which no carpet waits for another."""
+    return sum(lone_cost(factory, job) for job in range(len(factory.jobs)))
+
+
+def cost_bound(factory: Factory, horizon: int) -> int:
+    """The bound of the cost of all plans that end before a horizon [min], without the solver."""
+    return max(lone_costs(factory), capacity_bound(factory, horizon))
+
+
+def without_fine(solved: SolvedPlan, factory: Factory, fine: int) -> SolvedPlan:
+    """A plan of a factory with a fine as one of it without; with the least number of late carpets.
+
+    A plan that costs less than the fine costs less than n + 1 fines with those of its n late carpets.
+    """
+    plan = FactoryPlan(factory, solved.plan.carpets)
+    bound = min(cost_bound(factory, solved.horizon), plan.cost)
+    return replace(solved, plan=plan, bound=bound, fine=fine, least_late=min(solved.bound // fine, len(plan.late)))
+
+
 def solve(
     factory: Factory, given: FactoryPlan, limits: SolveLimits, *, in_time: frozenset[int] = frozenset()
 ) -> SolvedPlan:
@@ -66,8 +89,7 @@ def solve(
     model.hint(given)
     model.minimise_cost()
     first = model.run(_part(limits, FIRST_SHARE, FIRST_SHARE * limits.seconds - (time.monotonic() - begun)))
-    lone = sum(lone_cost(factory, job) for job in range(len(factory.jobs)))
-    floor = lone if in_time else max(lone, capacity_bound(factory, horizon))
+    floor = lone_costs(factory) if in_time else cost_bound(factory, horizon)
     if first.sequences is None:
         return SolvedPlan(given, floor, horizon, "none", first.repeatable)
     best = left_shifted(factory, first.sequences, first.floors)
