@@ -150,7 +150,7 @@ BAD_ORDERS = {
         ('picture = "medallion.png"', 'picture = "medallion.png"\nprogramme = "p.ilmek"'),
         "has both picture and programme",
     ),
-    "too many": (("due", "quantity = 501\ndue"), "a whole number, 1 to 500"),
+    "too many": (("due", "quantity = 3001\ndue"), "a whole number, 1 to 3000"),
     "year": (("2026-12-18", "9026-12-18"), "the year 9026; 1900 to 2200"),
     "far away": (("due", "earliest = 2199-01-01\ndue"), "the plan does not end within 1830 days"),
 }

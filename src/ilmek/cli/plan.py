@@ -19,7 +19,7 @@ Examples:
   ilmek plan examples/orders.toml --looms examples/looms.toml --out plan --force
   ilmek plan orders.toml --looms looms.toml --time-limit 30s --json -
 
-Limits: file 250 kB; 500 carpets, 50 looms, 50 shifts.
+Limits: file 2 MB; 3000 carpets, 1000 looms, 50 shifts.
 """
 
 

@@ -119,6 +119,11 @@ class Factory:
     jobs: tuple[CarpetJob, ...]
     yarns: tuple[StoredYarn, ...] = ()
 
+    @property
+    def pairs(self) -> int:
+        """Pairs of a job and a loom that can weave it: the size of the problem."""
+        return sum(len(job.weaving) for job in self.jobs)
+
     def loom_cost(self, job: int, loom: int, *, same: bool) -> int:
         """The cost of a job on a loom, without its delay; `same`: after a carpet of the same setup."""
         on = self.looms[loom]

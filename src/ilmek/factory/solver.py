@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.factory.bound import capacity_bound
+from ilmek.factory.bound import MOST_PAIRS, capacity_bound
 from ilmek.factory.calendar import DAY, MOST_DAYS, WEEK
 from ilmek.factory.model import Factory, FactoryPlan, SolveLimits, carpet_on, in_turn, left_shifted, lone_cost
 from ilmek.factory.search import LEAST_SECONDS
@@ -81,10 +81,13 @@ def solve(
     """The best plan found from a given one, never worse than it.
 
     in_time  jobs that must not be late; where the solver finds no such plan, the status is "none"
+    Beyond MOST_PAIRS the plan is the given one, and the bound that of each carpet by itself.
     Raises ParameterError where OR-tools is not installed.
     """
     begun, cp, given = time.monotonic(), import_solver(), in_turn(given)
     horizon = horizon_of(given)
+    if factory.pairs > MOST_PAIRS:
+        return SolvedPlan(given, cost_bound(factory, horizon), horizon, "feasible", repeatable=True)
     model = FactoryModel(cp, factory, horizon, in_time)
     model.hint(given)
     model.minimise_cost()
