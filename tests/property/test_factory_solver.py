@@ -5,10 +5,11 @@ from dataclasses import replace
 import pytest
 from small_factory import every_plan, small_factory
 
+from ilmek.factory.annealing import annealed_plan
 from ilmek.factory.bound import capacity_bound
 from ilmek.factory.heuristic import first_plan
-from ilmek.factory.model import SolveLimits, in_turn, left_shifted, lone_cost, sequences_of
-from ilmek.factory.solver import horizon_of, solve
+from ilmek.factory.model import FactoryPlan, SolveLimits, in_turn, left_shifted, lone_cost, sequences_of
+from ilmek.factory.solver import horizon_of, solve, without_fine
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import waiting_in
 
@@ -24,6 +25,24 @@ def test_no_plan_costs_less_than_the_solvers(seed: int) -> None:
     assert solved.status == "optimal"
     assert solved.plan.cost == solved.bound == least[0]
     assert plan_faults(solved.plan, solved.plan.cost) == ()
+
+
+@pytest.mark.parametrize("seed", [102, 134, 149, 155])
+def test_no_plan_has_fewer_late_carpets_where_that_is_the_aim(seed: int) -> None:
+    """In each of these factories the cheapest plan has more late carpets than another one."""
+    factory = small_factory(3, 2, seed=seed, tight=0.02)
+    plans = list(every_plan(factory))
+    fewest = min(plans, key=lambda plan: (len(plan.late), plan.merit))
+    assert len(fewest.late) < len(min(plans, key=lambda plan: plan.merit).late)
+    first = first_plan(factory)
+    fine = 2 * first.cost
+    fined = FactoryPlan(factory.with_fine(fine), first.carpets)
+    annealed, _ = annealed_plan(fined, 2_000)
+    solved = without_fine(solve(fined.factory, fined, LIMITS), factory, fine)
+    assert annealed.cost - annealed.fines == solved.plan.cost == fewest.cost
+    assert len(annealed.late) == len(solved.plan.late) == solved.least_late == len(fewest.late)
+    assert solved.bound <= min(plan.cost for plan in plans)
+    assert plan_faults(solved.plan, solved.plan.cost) == plan_faults(annealed, annealed.cost) == ()
 
 
 @pytest.mark.parametrize("seed", [20, 23])

@@ -135,3 +135,11 @@ def test_a_measure_makes_no_other_order_late() -> None:
     target = frozenset({max(plan.late)})
     for one in rescues(plan, target):
         assert one.plan.late <= plan.late - target
+
+
+def test_a_rule_sends_a_carpet_to_a_loom_that_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Equal carpets, each of a setup of its own, that are due at once on equal looms: each loom has as many."""
+    monkeypatch.setattr("ilmek.factory.heuristic.MOST_TRIES", 0)  # the rules alone
+    jobs = tuple(replace(job(k, setup=k), weaving=dict.fromkeys(range(4), 600)) for k in range(8))
+    plan = first_plan(Factory((loom(),) * 4, jobs))
+    assert [len(plan.on_loom(k)) for k in range(4)] == [2] * 4

@@ -29,7 +29,7 @@ RED, IVORY, NAVY = (158, 43, 37), (239, 230, 208), (27, 36, 66)
 WOOL = "name,srgb\nred,#9e2b25\nivory,#efe6d0\nnavy,#1b2442\n"
 NAMES = {
     "orders", "bound", "cost", "loom_cost", "late_cost", "gap", "currency", "status", "repeatable", "horizon", "looms",
-    "late_orders", "yarn", "yarn_price", "begun",
+    "late_orders", "late_carpets", "least_late", "yarn", "yarn_price", "begun",
 }  # fmt: skip
 ORDER_NAMES = {"name", "loom", "start", "end", "cost", "late", "due", "woven", "quantity", "carpets", "moved"}
 
@@ -150,7 +150,7 @@ BAD_ORDERS = {
         ('picture = "medallion.png"', 'picture = "medallion.png"\nprogramme = "p.ilmek"'),
         "has both picture and programme",
     ),
-    "too many": (("due", "quantity = 501\ndue"), "a whole number, 1 to 500"),
+    "too many": (("due", "quantity = 3001\ndue"), "a whole number, 1 to 3000"),
     "year": (("2026-12-18", "9026-12-18"), "the year 9026; 1900 to 2200"),
     "far away": (("due", "earliest = 2199-01-01\ndue"), "the plan does not end within 1830 days"),
 }
@@ -261,8 +261,11 @@ def test_a_programme_is_woven_only_by_the_loom_that_it_was_compiled_for(
     found = json.loads(plan(written(tmp_path, orders=orders), "--json", "-").stdout)
     assert [one["name"] for one in found["reasons"]] == ["one on A: programme: compiled for this loom"]
     monkeypatch.setattr("ilmek.jobs.plan_fits.loom_digest", lambda _: programme.setup.loom)
-    (order,) = json.loads(plan(tmp_path, "--json", "-").stdout)["orders"]
+    found = json.loads(plan(tmp_path, "--aim", "late", "--json", "-").stdout)
+    (order,) = found["orders"]
     assert (order["loom"], order["late"]) == ("A", 0)
+    assert (found["late_carpets"], found["least_late"], found["parameters"]["aim"]) == (0, 0, "late")
+    assert found["cost"] == pytest.approx(found["loom_cost"])  # without the fine of the search
 
 
 @pytest.mark.parametrize("case", ["two-indices", "three positions", "a chart"])

@@ -15,7 +15,7 @@ from ilmek.io.plc.targets import TARGETS
 from ilmek.jobs.check import CheckResult, check_programme
 from ilmek.jobs.convert import convert_programme
 from ilmek.jobs.inspect import InspectionResult, inspect_programme
-from ilmek.jobs.plan import LEAST_LIMIT, MOST_LIMIT, PlanResult, plan_factory
+from ilmek.jobs.plan import AIMS, LEAST_LIMIT, MOST_LIMIT, PlanResult, plan_factory
 from ilmek.jobs.plc.program import PlcResult, write_plc
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import read_run_order
@@ -167,6 +167,7 @@ def plan(
     time_limit: Quantity | None = None,
     now: str | datetime | None = None,
     against: str | Path | None = None,
+    aim: str = "cost",
     progress: Progress = SILENT,
 ) -> PlanResult:
     """Plan the orders of a file on the looms of another: which carpet on which loom when, at the least cost.
@@ -174,6 +175,7 @@ def plan(
     time_limit  of the search [s], like "60s"; default: by the number of carpets
     now         begin of the plan, "2026-12-03T10:00": what is on the looms stays; default: that of the file
     against     plan.json of an earlier plan, with whose ends those of the orders are compared
+    aim         "cost": the least; "late": the fewest late carpets, then the least cost
     Raises an IlmekError, with file and line, for what cannot be read; Cancelled.
 
     >>> import shutil, tempfile
@@ -198,6 +200,7 @@ def plan(
         time_limit=limit,
         now=None if now is None else read_instant("now", now),
         against=None if against is None else given.path("against", against),
+        aim=given.one_of("aim", aim, AIMS),
         progress=on,
     )
 

@@ -20,7 +20,7 @@ Examples:
   ilmek order order.toml --looms looms.toml --key workshop.key --out order
   ilmek order order.toml --out order --force --run "Kazak, madder=run"
 
-Limits: file 250 kB; 500 carpets, 20 colourways and 20 sizes of a design.
+Limits: file 2 MB; 3000 carpets, 20 colourways and 20 sizes of a design.
 """
 
 

@@ -19,7 +19,7 @@ Examples:
   ilmek plan examples/orders.toml --looms examples/looms.toml --out plan --force
   ilmek plan orders.toml --looms looms.toml --time-limit 30s --json -
 
-Limits: file 250 kB; 500 carpets, 50 looms, 50 shifts.
+Limits: file 2 MB; 3000 carpets, 1000 looms, 50 shifts.
 """
 
 
@@ -35,6 +35,7 @@ Limits: file 250 kB; 500 carpets, 50 looms, 50 shifts.
 @file_option("--out", "DIR", "Write page, picture, plan and purchase into a folder.")
 @text_option("--now", "TIME", "Begin of the plan, like 2026-12-03T10:00, for --looms with what they weave.")
 @file_option("--against", "PLAN.json", "An earlier plan, to compare the ends of the orders with.")
+@click.option("--aim", type=click.Choice(("cost", "late")), help="Least cost, or first the fewest late carpets.")
 @text_option("--time-limit", "TIME", "Time to plan in, like 30s; default: 10s for ten carpets, 60s for a hundred.")
 @force_option
 @json_option
@@ -45,6 +46,7 @@ def command(
     out: Path | None,
     now: str | None,
     against: Path | None,
+    aim: str | None,
     time_limit: str | None,
     force: bool,
     json_to: str | None,
@@ -58,7 +60,7 @@ def command(
     Ends with 3 where an order is late or cannot be woven.
     """
     from ilmek.io.plan_file import read_instant
-    from ilmek.jobs.plan import plan_factory, read_time_limit
+    from ilmek.jobs.plan import AIMS, plan_factory, read_time_limit
     from ilmek.jobs.plan_files import write_plan
     from ilmek.jobs.plan_results import plan_json
 
@@ -68,7 +70,15 @@ def command(
     with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
         if out is not None:
             call.outputs.expect_folder(out, "--out")
-        done = plan_factory(orders, looms, time_limit=limit, now=begin, against=against, progress=call.progress)
+        done = plan_factory(
+            orders,
+            looms,
+            time_limit=limit,
+            now=begin,
+            against=against,
+            aim=aim or AIMS[0],
+            progress=call.progress,
+        )
         files = [] if out is None else write_plan(done, out, call.outputs)
         call.give_json(lambda: plan_json(done, files))
     if call.quiet:

@@ -23,7 +23,7 @@ ROUNDS = 2
 """Times that the search begins again, with the best plan and the yarn in its order of starts."""
 
 HOT, COLD = 0.3, 0.003
-"""First and last temperature, as shares of the mean cost of a carpet."""
+"""First and last temperature, as shares of the mean cost of a carpet; the last without fines."""
 
 LONGEST_RUN = 4
 """Carpets that move together."""
@@ -61,12 +61,12 @@ def annealed_plan(
     ended  whether the time is over; default: never
     """
     factory, best, whole = plan.factory, plan, True
-    scale = plan.cost / max(len(plan.carpets), 1)
+    hot, cold = (share / max(len(plan.carpets), 1) for share in (HOT * plan.cost, COLD * (plan.cost - plan.fines)))
     floors = waiting_times(factory, [carpet.job for carpet in sorted(plan.carpets, key=lambda carpet: carpet.start)])
     for number in range(ROUNDS):
         search = _Annealing(factory, floors, sequences_of(best), random.Random(number))
         part = progress.part(number / ROUNDS, (number + 1) / ROUNDS)
-        whole = search.run(moves // ROUNDS, HOT * scale / 2**number, COLD * scale, part, ended)
+        whole = search.run(moves // ROUNDS, hot / 2**number, cold, part, ended)
         floors = search.best_floors
         best = min(best, left_shifted(factory, search.best, floors), key=lambda made: made.merit)
         if not whole:

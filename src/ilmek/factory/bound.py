@@ -28,6 +28,9 @@ MOST_SHARES = 150_000
 
 LEAST_INTERVALS, MOST_INTERVALS = 6, 200
 
+MOST_PAIRS = MOST_SHARES // LEAST_INTERVALS
+"""Largest number of pairs of a carpet and a loom for which this bound, and the solver's model, are made."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Shares:
@@ -41,8 +44,8 @@ class _Shares:
 
 
 def capacity_bound(factory: Factory, horizon: int) -> int:
-    """The bound of the cost of all plans that end before a horizon [min]; 0 where none is found."""
-    if not factory.jobs:
+    """The bound of the cost of all plans that end before a horizon [min]; 0: none is found, or too many pairs."""
+    if not 0 < factory.pairs <= MOST_PAIRS:
         return 0
     shares = _shares(factory, horizon)
     count = len(shares.job)

@@ -12,14 +12,18 @@ from ilmek.factory.yarn_stock import waiting_times
 from ilmek.progress import SILENT, Progress
 
 MOST_TRIES = 400_000
-"""Placements of a carpet that the improvement times; 4 µs each."""
+"""Placements of a carpet that the improvement times; 4 µs each. Where one turn takes more there is none."""
+
+MOST_PLACED = 1_000_000
+"""Placements of carpets after which no further dispatching rule is tried."""
 
 _ROUNDS = 60
 
 
 def first_plan(factory: Factory, progress: Progress = SILENT) -> FactoryPlan:
     """The best plan of the dispatching rules, improved by moves of one carpet at a time."""
-    plans = (_dispatched(factory, order) for order in _orders(factory))
+    tried = max(1, MOST_PLACED // max(factory.pairs, 1))
+    plans = (_dispatched(factory, order) for order in itertools.islice(_orders(factory), tried))
     best = min(plans, key=lambda plan: plan.merit)
     return improved_plan(best, progress)
 
@@ -52,7 +56,8 @@ def _dispatched(factory: Factory, order: Sequence[int]) -> FactoryPlan:
             same = factory.same_setup(loom, before, job)
             end = carpet_on(factory, job, loom, max(free[loom], floors.get(job, 0)), same=same).end
             options.append((factory.loom_cost(job, loom, same=same) + factory.jobs[job].late_cost(end), end, loom))
-        _, free[loom], loom = min(options)
+        _, end, loom = min(options)
+        free[loom] = end
         sequences[loom].append(job)
     return left_shifted(factory, sequences, floors)
 
@@ -60,6 +65,8 @@ def _dispatched(factory: Factory, order: Sequence[int]) -> FactoryPlan:
 def improved_plan(plan: FactoryPlan, progress: Progress = SILENT, *, tries: int = MOST_TRIES) -> FactoryPlan:
     """Move each carpet to the best position of all looms, while that lowers the merit and tries are left."""
     factory = plan.factory
+    if factory.pairs > MOST_TRIES:
+        return plan
     sequences = sequences_of(plan)
     floors = waiting_times(factory, [carpet.job for carpet in sorted(plan.carpets, key=lambda one: one.start)])
     merits = [_loom_merit(factory, loom, sequence, floors) for loom, sequence in enumerate(sequences)]

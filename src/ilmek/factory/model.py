@@ -57,7 +57,7 @@ class CarpetJob:
     order     index of its order            setup     carpets of one setup have the same width and yarns
     weaving   minutes on each loom that can weave it, by the index of the loom
     earliest  start [min]                   due       [min]
-    late      cost of a started hour after the due date
+    late      cost of a started hour after the due date     fine  cost of being late at all, in a search
     yarns     grams by the index of the yarn
     """
 
@@ -68,10 +68,11 @@ class CarpetJob:
     due: int
     late: int
     yarns: Mapping[int, int] = field(default_factory=dict)
+    fine: int = 0
 
     def late_cost(self, end: int) -> int:
         """The cost of its delay where it ends at an instant."""
-        return self.late * late_hours(end, self.due)
+        return self.late * late_hours(end, self.due) + self.fine * (end > self.due)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +119,11 @@ class Factory:
     jobs: tuple[CarpetJob, ...]
     yarns: tuple[StoredYarn, ...] = ()
 
+    @property
+    def pairs(self) -> int:
+        """Pairs of a job and a loom that can weave it: the size of the problem."""
+        return sum(len(job.weaving) for job in self.jobs)
+
     def loom_cost(self, job: int, loom: int, *, same: bool) -> int:
         """The cost of a job on a loom, without its delay; `same`: after a carpet of the same setup."""
         on = self.looms[loom]
@@ -133,6 +139,10 @@ class Factory:
         return any(loom.setup == setup for loom in self.looms) or any(
             index != job and other.setup == setup for index, other in enumerate(self.jobs)
         )
+
+    def with_fine(self, fine: int) -> "Factory":
+        """The factory in which each late carpet costs a fine too."""
+        return replace(self, jobs=tuple(replace(job, fine=fine) for job in self.jobs))
 
     def with_loom(self, index: int, loom: Loom) -> "Factory":
         """The factory with another loom of that index."""
@@ -174,6 +184,11 @@ class FactoryPlan:
     def late(self) -> frozenset[int]:
         """Jobs that end after their due date."""
         return frozenset(carpet.job for carpet in self.carpets if carpet.end > self.factory.jobs[carpet.job].due)
+
+    @property
+    def fines(self) -> int:
+        """What of the cost is for being late at all."""
+        return sum(self.factory.jobs[job].fine for job in self.late)
 
     @property
     def end(self) -> int:
@@ -244,7 +259,7 @@ def in_turn(plan: FactoryPlan) -> FactoryPlan:
 
 def likeness(job: CarpetJob) -> tuple[object, ...]:
     """What two jobs have in common that can be exchanged."""
-    return job.order, job.setup, job.earliest, job.due, job.late, tuple(sorted(job.weaving.items()))
+    return job.order, job.setup, job.earliest, job.due, job.late, job.fine, tuple(sorted(job.weaving.items()))
 
 
 def lone_cost(factory: Factory, job: int) -> int:

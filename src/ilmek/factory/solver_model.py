@@ -80,7 +80,7 @@ class FactoryModel:
         self.on: dict[tuple[int, int], IntVar] = {}
         self.timed: dict[tuple[int, int], _Timed] = {}
         self.follows: dict[tuple[int, int, int], IntVar] = {}
-        self.late: dict[int, IntVar] = {}
+        self.late: list[tuple[int, IntVar, int, int]] = []  # job, variable, its cost, its most
         self.switches: list[_Switch] = []
         self.sizes: list[tuple[IntVar, int, int, int, int]] = []
         self.early: list[tuple[IntVar, int, int]] = []
@@ -152,10 +152,9 @@ class FactoryModel:
         weaving = sum(what.weaving[loom] * self.on[job, loom] for loom in looms)
         woven = model.new_int_var(0, axes.weaving_total, "")
         model.add(woven == self._end_on_weaving(dressed, job, group, "dressed") + weaving)
-        doffing = sum(self.factory.looms[loom].doffing * self.on[job, loom] for loom in looms)
         met = self._on_attended(woven, job, group)
         end = model.new_int_var(least, axes.attended_total, f"end {job} {group}")
-        model.add(end == met + doffing)
+        model.add(end == met + sum(self.factory.looms[loom].doffing * self.on[job, loom] for loom in looms))
         woven_end = model.new_int_var(0, axes.weaving_total, "")
         # Without doffing a carpet may end while nobody is there.
         after_doffing = self._end_on_weaving(end, job, group, "end")
@@ -236,8 +235,13 @@ class FactoryModel:
                 if (job, group) in self.timed:
                     self._in_time(job, group, axes)
             return
-        hours = model.new_int_var(0, max(-(-(self.horizon - what.due) // HOUR), 0), f"late {job}")
-        self.late[job] = hours
+        most = late_hours(self.horizon, what.due)
+        hours = model.new_int_var(0, most, f"late {job}")
+        self.late.append((job, hours, what.late, most))
+        if what.fine:
+            fined = model.new_bool_var("")
+            self.late.append((job, fined, what.fine, 1))
+            model.add(hours <= most * fined)
         for group, axes in enumerate(self.axes):
             if (job, group) not in self.timed:
                 continue
@@ -265,9 +269,8 @@ class FactoryModel:
         return ends
 
     def _in_time(self, job: int, group: int, axes: WorkAxes) -> None:
-        due = self.factory.jobs[job].due
         for end, calendar, literals in self._ends(job, group, axes):
-            self.model.add(end <= calendar.work(due)).only_enforce_if(literals)
+            self.model.add(end <= calendar.work(self.factory.jobs[job].due)).only_enforce_if(literals)
 
     def _stock(self) -> None:
         """Carpets that start before a purchase arrives are woven from the stock."""
@@ -280,10 +283,9 @@ class FactoryModel:
                 self.early.append((early, job, yarn.arrives))
                 terms.append(what.yarns[index] * early)
                 for group, axes in enumerate(self.axes):
-                    if (job, group) in self.timed:
-                        timed = self.timed[job, group]
-                        least = axes.attended.work(yarn.arrives)
-                        self.model.add(timed.start >= least).only_enforce_if([~early, timed.present])
+                    if (timed := self.timed.get((job, group))) is not None:
+                        waits = timed.start >= axes.attended.work(yarn.arrives)
+                        self.model.add(waits).only_enforce_if([~early, timed.present])
             self.model.add(sum(terms) <= yarn.stock)
 
     def _alike(self) -> None:
@@ -304,7 +306,7 @@ class FactoryModel:
             (factory.loom_cost(then, loom, same=False) - factory.loom_cost(then, loom, same=True)) * follows
             for (_, then, loom), follows in self.follows.items()
         )
-        return looms - saved + sum(factory.jobs[job].late * hours for job, hours in self.late.items())
+        return looms - saved + sum(cost * late for _, late, cost, _ in self.late)
 
     def minimise_cost(self) -> None:
         """Minimise the cost of looms and delays."""
@@ -335,8 +337,8 @@ class FactoryModel:
                 self.model.add_hint(getattr(timed, name), value)
         for switch in self.switches:
             self.model.add_hint(switch.variable, values[switch.job, switch.group][switch.name] > switch.bound)
-        for job, hours in self.late.items():
-            self.model.add_hint(hours, late_hours(where[job].end, self.factory.jobs[job].due))
+        for job, late, _, most in self.late:
+            self.model.add_hint(late, min(late_hours(where[job].end, self.factory.jobs[job].due), most))
         for early, job, arrives in self.early:
             self.model.add_hint(early, where[job].start < arrives)
         pairs = {pair for jobs in sequences_of(plan) for pair in itertools.pairwise((ON_LOOM, *jobs))}
@@ -348,8 +350,7 @@ class FactoryModel:
             if first != then:
                 free = self.axes[group].weaving.work(self.factory.looms[loom].available)
                 begin, end = free if first == ON_LOOM else values[first, group]["woven_end"], begin
-            length = end - begin
-            self.model.add_hint(size, length if there else 0)
+            self.model.add_hint(size, end - begin if there else 0)
 
     def _values(self, job: int, group: int, one: PlannedCarpet) -> dict[str, int]:
         """The values of the variables of a job at a plan; of one on other looms, as of a carpet without work."""
@@ -384,8 +385,7 @@ class FactoryModel:
         for (job, group), timed in self.timed.items():
             for loom in self.axes[group].looms:
                 if (job, loom) in self.on and solver.value(self.on[job, loom]):
-                    key = solver.value(timed.woven_start), solver.value(timed.woven_end), job
-                    sequences[loom].append(key)
+                    sequences[loom].append((solver.value(timed.woven_start), solver.value(timed.woven_end), job))
         return [[job for _, _, job in sorted(sequence)] for sequence in sequences]
 
     def _floors(self, solver: "CpSolver") -> dict[int, int]:

@@ -98,5 +98,5 @@ def _cost(plan: FactoryPlan) -> int:
         total += whole + (2 * rest >= HOUR)
         overdue = carpet.end - job.due
         if overdue > 0:
-            total += job.late * (overdue // HOUR + (overdue % HOUR > 0))
+            total += job.fine + job.late * (overdue // HOUR + (overdue % HOUR > 0))
     return total

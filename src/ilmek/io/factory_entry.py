@@ -12,6 +12,9 @@ from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import shown
 from ilmek.units import format_number, from_si, has_unit, parse_quantity, parse_unit
 
+LARGEST = 2_000_000
+"""Largest file of orders, and of looms [bytes]."""
+
 MOST_MONEY = 1e9
 """Largest amount of money of an entry, in its currency."""
 

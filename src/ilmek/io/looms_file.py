@@ -58,14 +58,14 @@ from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
-from ilmek.io.factory_entry import FactoryEntry, datetime_of, file_beside
+from ilmek.io.factory_entry import LARGEST, FactoryEntry, datetime_of, file_beside
 from ilmek.io.journal_folder import JOURNAL
 from ilmek.io.schema import SourceText, shown
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.params import Setting
 from ilmek.units import day, minute
 
-MOST_LOOMS = 50
+MOST_LOOMS = 1000
 """Largest number of looms of a file."""
 
 MOST_SHIFTS = 50
@@ -186,7 +186,7 @@ def read_looms(path: Path) -> FactoryLooms:
 
     Raises ParameterError with the file, the line and the key for any error in the file.
     """
-    text = read_data(path, "looms", ParameterError)
+    text = read_data(path, "looms", ParameterError, largest=LARGEST)
     with restated(ParameterError):
         return _looms(FactoryEntry(text.data, (), SourceText(str(path), text.lines)), path)
 

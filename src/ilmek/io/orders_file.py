@@ -33,7 +33,7 @@ from ilmek.carpet.price_rules import PriceRules, WageRules
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import IlmekError, ParameterError, restated
 from ilmek.io.data_text import read_data
-from ilmek.io.factory_entry import FactoryEntry, file_beside
+from ilmek.io.factory_entry import LARGEST, FactoryEntry, file_beside
 from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, read_wage
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import SHIPPED
@@ -41,7 +41,7 @@ from ilmek.params import Parameter, Setting
 from ilmek.sentences import DEFAULT, WEAVERS
 from ilmek.units import hour
 
-MOST_ORDERS = 500
+MOST_ORDERS = 3000
 """Largest number of orders of a file, and of carpets in all of them."""
 
 MOST_PRIORITY = 100
@@ -108,7 +108,7 @@ def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrder
     parameters  of a carpet, each under every name that a key may have
     Raises ParameterError with the file, the line and the key for any error in the file.
     """
-    text = read_data(path, "orders", ParameterError)
+    text = read_data(path, "orders", ParameterError, largest=LARGEST)
     with restated(ParameterError):
         return _orders(FactoryEntry(text.data, (), SourceText(str(path), text.lines)), path, parameters)
 

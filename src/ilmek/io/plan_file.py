@@ -7,7 +7,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import datetime_of
 
-LARGEST = 10_000_000
+LARGEST = 30_000_000
 """Largest plan [bytes]; a carpet takes 5 kB."""
 
 

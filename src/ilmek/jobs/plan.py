@@ -12,7 +12,7 @@ from ilmek.factory.annealing import annealed_plan
 from ilmek.factory.heuristic import first_plan
 from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
-from ilmek.factory.solver import SolvedPlan, import_solver, solve
+from ilmek.factory.solver import SolvedPlan, import_solver, solve, without_fine
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import Purchase, purchases
 from ilmek.io.looms_file import read_looms
@@ -27,6 +27,9 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, at_most
 from ilmek.units import minute, parse_quantity
+
+AIMS = ("cost", "late")
+"""What is least: the cost, or first the number of late carpets."""
 
 MOVES = 4_000
 """Moves of the annealing in a second of the time limit: it takes about a quarter of it."""
@@ -63,7 +66,7 @@ class PlanResult:
     late       the late orders, those whose delay costs most first; measures for at most MOST_RESCUED of them
     purchases  yarn to buy
     ended      whether the time limit ended the search of measures
-    before     ends of the orders in an earlier plan, by name
+    before     ends of the orders in an earlier plan, by name            aim  one of AIMS
     """
 
     inputs: FactoryInputs
@@ -73,6 +76,7 @@ class PlanResult:
     time_limit: float
     ended: bool = False
     before: Mapping[str, datetime] = field(default_factory=dict)
+    aim: str = AIMS[0]
 
     @property
     def plan(self) -> FactoryPlan:
@@ -198,6 +202,7 @@ def plan_factory(
     time_limit: float | None = None,
     now: datetime | None = None,
     against: Path | None = None,
+    aim: str = AIMS[0],
     progress: Progress = SILENT,
 ) -> PlanResult:
     """Plan the orders of a file on the looms of another.
@@ -205,6 +210,7 @@ def plan_factory(
     time_limit  [s]; default: `default_limit` of the carpets
     now         begin of the plan in the place of the file's: what is on the looms stays there
     against     JSON of an earlier plan, with whose ends those of the orders are compared
+    aim         of AIMS: the least cost, or the fewest late carpets and then the least cost
     Raises an IlmekError for files that cannot be read, LoomError for a plan that fails its verification.
     """
     import_solver()
@@ -213,9 +219,12 @@ def plan_factory(
     inputs = read_inputs(ordered, read_looms(looms), progress.part(0.0, 0.3))
     limit = default_limit(len(inputs.factory.jobs)) if time_limit is None else time_limit
     if not inputs.factory.jobs:
-        return PlanResult(inputs, None, (), (), limit, before=before)
+        return PlanResult(inputs, None, (), (), limit, before=before, aim=aim)
     begun = time.monotonic()
     first = first_plan(inputs.factory, progress.part(0.3, 0.35, "first plan"))
+    # One late carpet less is worth more than the whole first plan twice.
+    fine = max(2 * first.cost, 1) if aim == "late" else 0
+    first = FactoryPlan(inputs.factory.with_fine(fine), first.carpets)
     annealed_by = begun + ANNEALING_SHARE * limit
     first, whole = annealed_plan(
         first,
@@ -226,12 +235,14 @@ def plan_factory(
     left = limit - (time.monotonic() - begun)
     share = SOLVER_SHARE if first.late else 1.0
     progress.part(0.5, 0.8, "plan")
-    solved = solve(inputs.factory, first, SolveLimits(PACE * share * limit, max(0.5, share * left)))
+    solved = solve(first.factory, first, SolveLimits(PACE * share * limit, max(0.5, share * left)))
     solved = replace(solved, repeatable=solved.repeatable and whole)
+    if fine:
+        solved = without_fine(solved, inputs.factory, fine)
     faults = plan_faults(solved.plan, solved.plan.cost)
     if faults:
         raise LoomError(f"the plan does not hold: {faults[0]}", do="report this with both files")
-    done = PlanResult(inputs, solved, (), purchases(solved.plan), limit, before=before)
+    done = PlanResult(inputs, solved, (), purchases(solved.plan), limit, before=before, aim=aim)
     return _with_measures(done, begun + limit, progress.part(0.8, 1.0, "late orders"))
 
 

@@ -25,6 +25,8 @@ def plan_results(done: PlanResult) -> JsonObject:
         "loom_cost": plan.loom_costs / MONEY,
         "late_cost": plan.late_costs / MONEY,
         "gap": done.gap,
+        "late_carpets": len(plan.late),
+        "least_late": None if solved is None or not solved.fine else solved.least_late,
         "currency": done.inputs.orders_file.currency,
         "status": "none" if solved is None else solved.status,
         "repeatable": solved is None or (solved.repeatable and not done.ended),
@@ -169,6 +171,7 @@ def plan_json(done: PlanResult, files: Sequence[str] = ()) -> JsonObject:
         "looms": str(done.inputs.looms_file.path),
         "start": done.inputs.orders_file.start.isoformat(timespec="minutes"),
         "time_limit": done.time_limit,
+        "aim": done.aim,
     }
     results = plan_results(done)
     return job_json("plan", parameters, results, checks=done.checks, warnings=list(done.warnings), files=list(files))

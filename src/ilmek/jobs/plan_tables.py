@@ -2,6 +2,7 @@
 
 from datetime import datetime
 
+from ilmek.factory.model import MONEY
 from ilmek.jobs.plan import PlanResult
 from ilmek.jobs.plan_results import plan_results
 from ilmek.records import JsonObject
@@ -103,6 +104,9 @@ def cost_lines(done: PlanResult) -> list[tuple[str, str]]:
     lines = [("cost", f"{found['cost']:,.2f} {money}: {parts}")]
     if found["bound"] is not None:
         lines.append(("bound", f"no plan costs less than {found['bound']:,.2f} {money} (gap {found['gap']:.1%})"))
+    if done.solved is not None and done.solved.fine:
+        below = f"no plan below {done.solved.fine / MONEY:,.2f} {money} has fewer than {found['least_late']}"
+        lines.append(("late", f"{found['late_carpets']} carpets; {below}"))
     return lines
 
 
