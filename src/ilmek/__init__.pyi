@@ -55,6 +55,7 @@ from ilmek.api.programmes import plan as plan
 from ilmek.api.programmes import plc as plc
 from ilmek.api.programmes import run_loom as run_loom
 from ilmek.api.programmes import simulate_loom as simulate_loom
+from ilmek.api.studies import optimise as optimise
 from ilmek.api.studies import study as study
 from ilmek.api.tufted import compare as compare
 from ilmek.api.tufted import kilim as kilim

@@ -603,6 +603,22 @@ CALLS: dict[str, Call] = {
         ),
         long=True,
     ),
+    "optimise": Call(
+        ilmek.optimise,
+        (
+            Named("beat-up"),
+            Other({"swing": "28deg..32deg"}, wrong=({1: "1..2"}, [1], {"swing": 3}, {"swing": "x"})),
+            Other("drive_torque_max", wrong=("x", ["x"], [3], 3)),
+        ),
+        dict(
+            subject_to=Other(["drive_torque_max <= 9 N*m"], wrong=("x", ["x"], [3], 3)),
+            samples=Count(2),
+            seed=Count(1),
+            workers=Count(1),
+            progress=Other(ilmek.Progress()),
+        ),
+        long=True,
+    ),
     "compare": Call(
         lambda file, machine, **more: ilmek.compare(measured() if file == "measured" else file, machine, **more),
         (Other("measured", wrong=("no.csv", 3)), Named("tufting")),

@@ -92,6 +92,35 @@ def study(
     )
 
 
+def optimise(
+    target: Studied,
+    vary: Mapping[str, str],
+    /,
+    least: str | Sequence[str],
+    *,
+    subject_to: Sequence[str] = (),
+    samples: int | None = None,
+    seed: int = 0,
+    workers: int = 1,
+    progress: Progress = SILENT,
+) -> StudyResult:
+    """The best design over ranges: `study` by its method `optimum`; every check of a design is a constraint.
+
+    target, vary, samples, seed, workers, progress  as of `study`
+    least       result to be made least, or "most NAME"; of several `front` has those of which no other is better in all
+    subject_to  limits, "transmission_angle_min >= 40deg"
+    `front` has the number of the best design, `optimum` what the limits cost. Raises as `study`.
+
+    >>> found = optimise("cam", {"lift": "20mm..30mm"}, "prime_radius", samples=16)
+    >>> len(found.front)
+    1
+    """
+    return study(
+        target, vary, goals=(least,) if isinstance(least, str) else least, hold=subject_to, method="optimum",
+        samples=samples, seed=seed, workers=workers, progress=progress,
+    )  # fmt: skip
+
+
 def _read_already(file: MechanismFile, settings: Mapping[str, Setting]) -> MechanismTarget:
     values = {name: str(value) for name, value in settings.items()}
     return target_of_data(with_values(file.data, values), MotionRequest({}))

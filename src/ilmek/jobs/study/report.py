@@ -6,14 +6,17 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.jobs.study.run import StudyResult
+from ilmek.plane.level_sets import level_polygons
 from ilmek.records import JsonObject
 from ilmek.report import Axis, Check, Column, DesignCloud, Figure, Mark, Plot, Report, Result, Series, Table, at_least
 from ilmek.studies.allocation import Allocation, scaled
 from ilmek.studies.fronts import knee
 from ilmek.studies.optimum import Optimum
+from ilmek.studies.surface import surface_of
 from ilmek.studies.tolerance import Yield
 from ilmek.studies.variable import settings_of
-from ilmek.units import format_quantity, parse_unit
+from ilmek.units import format_quantity, parse_unit, printed_unit
+from ilmek.viz.scale import tick_labels, ticks
 
 CLASSES = 12
 """Classes of a variable in a curve of means."""
@@ -23,6 +26,9 @@ LEAST_IN_CLASS = 3
 
 MOST_POINTS = 1000
 """Designs of the picture of all designs; those of the front are added."""
+
+TRUSTED, NODES, LEVELS = 0.8, 61, 6
+"""Least share of the variance that a surface explains to be drawn; its nodes across, and about how many lines."""
 
 SHOWN = 10
 """Designs, checks and reasons in a table."""
@@ -224,6 +230,7 @@ def _figures(found: StudyResult) -> Iterator[Figure]:
             plot = _response(found, result, number)
             if plot is not None and variable.continuous:
                 yield plot
+        yield from _surface_plot(found, result)
     for number, variable in enumerate(found.variables):
         if variable.continuous:
             yield from _failure_plot(found, number)
@@ -294,6 +301,42 @@ def _response(found: StudyResult, result: str, number: int) -> Plot | None:
     curves |= {f"{share:.0%} quantile": [np.quantile(groups[n], share) for n in kept] for share in (0.1, 0.9)}
     series = tuple(Series(label, x, np.array(y), dashed=label != "mean") for label, y in curves.items())
     return Plot(name, title, *axes, series, note="all other variables over their ranges")
+
+
+def _surface_plot(found: StudyResult, result: str) -> Iterator[Plot]:
+    """Lines of equal result over the two variables that do most to it, the others in the middle of their ranges."""
+    own = [number for number, variable in enumerate(found.variables) if variable.continuous]
+    values = found.values(result)
+    points = found.rows.points[np.isfinite(values)][:, own]
+    surface = surface_of(points, values[np.isfinite(values)]) if len(own) > 1 else None
+    if surface is None or surface.explained < TRUSTED:
+        return
+    pair = sorted(np.argsort(surface.influence(points))[-2:].tolist())
+    grid = np.tile((surface.low + surface.high) / 2, (NODES, NODES, 1))
+    ends = [np.linspace(surface.low[n], surface.high[n], NODES) for n in pair]
+    grid[:, :, pair[0]], grid[:, :, pair[1]] = np.meshgrid(*ends)
+    field = surface.at(grid.reshape(-1, len(own))).reshape(NODES, NODES)
+    factor, unit = parse_unit(found.units[result]).factor, found.units[result]
+    levels = ticks(field.min() / factor, field.max() / factor, unit, LEVELS)
+    series = []
+    for level, words in zip(levels, tick_labels(levels), strict=True):
+        line = _level_line(field, level * factor)
+        x, y = (np.interp(at, np.arange(NODES), end, np.nan, np.nan) for at, end in zip(line, ends, strict=True))
+        series.append(Series(f"{words} {printed_unit(unit)}".strip(), x, y))
+    first, second = (found.variables[own[n]] for n in pair)
+    title = f"{result} over {first.name} and {second.name}"
+    note = f"quadratic fit: it explains {surface.explained:.1%} of the variance"
+    axes = (Axis(first.name, first.unit), Axis(second.name, second.unit))
+    yield Plot(f"study-surface-{result}", title, *axes, tuple(series), note=note)
+
+
+def _level_line(field: FloatArray, level: float) -> tuple[FloatArray, FloatArray]:
+    """Columns and rows of the points at a level, lines one after another; outside the field, and between lines, NaN."""
+    padded = np.pad(field, 1, constant_values=min(field.min(), level) - 1.0)
+    lines = [np.append(line, (line[0], np.nan)) - (1 + 1j) for line in level_polygons(padded, level)]
+    points = np.concatenate([*lines, [np.nan * 1j]])
+    points[(np.minimum(points.real, points.imag) < 0) | (np.maximum(points.real, points.imag) > NODES - 1)] = np.nan
+    return points.real, points.imag
 
 
 def _failure_plot(found: StudyResult, number: int) -> Iterator[Plot]:
