@@ -51,7 +51,7 @@ class TuftedByGun:
     plan: GunPlan
     cones: tuple[Cone, ...]
     heights: tuple[float, ...]
-    yarn_per_stitch: float = result("mm", "yarn of a stitch of pile_height: both legs and the back stitch")
+    yarn_per_stitch: float = result("mm", "yarn of a stitch: both legs and the back stitch")
     yarn: Mapping[int, float]
     clock: Float[np.ndarray, " moments"]
     deadline: float | None
@@ -154,9 +154,8 @@ def tufted_by_gun(
     heights  of the pile by label [m]; default: pile_height for all      deadline  for the whole carpet [s]
     """
     heights = heights or (params.pile_height,) * len(cones)
-    usual, *of_stitch = tuft_yarn(
-        np.array([params.pile_height, *heights]), params.backing_thickness, params.stitch
-    ).tolist()
+    piles = np.array([params.pile_height, *heights])
+    usual, *of_stitch = np.asarray(tuft_yarn(piles, params.backing_thickness, params.stitch)).tolist()
     yarn = {
         colour.label: colour.length * of_stitch[colour.label] / params.stitch + 2 * params.waste * len(colour.strokes)
         for colour in plan.colours
