@@ -10,6 +10,7 @@ import pytest
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.price_rules import WageRules
+from ilmek.io.chart.legend import mounting_lines
 from ilmek.io.selling.mounting_sheet import write_mounting
 from ilmek.io.selling.wage_sheet import WageSheet, write_wages
 from ilmek.io.yarn_file import default_yarns
@@ -59,3 +60,16 @@ def test_each_text_is_read_back_in_logical_order(language: str, tmp_path: Path) 
     begin = catalogue["order.begin-row"].translate(digits)
     for text, page in ((done, wages), (begin, shown)):  # pdfium moves a number at the begin of a line
         assert all(bare(word) in page for word in text.replace(":", " ").split()), text
+
+
+def test_words_and_marks_of_the_mounting_are_lengths_on_the_loom() -> None:
+    """The middle of 500 rows is half of what 50 marks measure, and the rows of a decimetre are counted there too."""
+    chart = Chart(np.zeros((500, 288), np.uint8), default_yarns()[:1], "115.2x200cm", "25x25/dm", "symmetric")
+    made = mounting(chart)
+    said = dict(mounting_lines(chart, made))
+    row, knot, dense = (str(said[f"{name}"]) for name in ("middle row", "middle knot", "in a decimetre"))
+    assert float(re.findall(r"([\d.]+) cm", row)[0]) == pytest.approx(100 * made.row_mark * 25, abs=0.06)
+    assert float(re.findall(r"([\d.]+) cm", knot)[0]) == pytest.approx(100 * made.knot_mark * 14.4, abs=0.06)
+    knots, rows = map(float, re.findall(r"[\d.]+", dense))
+    assert (knots, rows) == (pytest.approx(1 / made.knot_mark, abs=0.06), pytest.approx(1 / made.row_mark, abs=0.06))
+    assert made.row_mark > 10 / 250  # the warps are stretched

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,7 @@ from ilmek.io.chart import bidi, lettering
 from ilmek.io.chart.join_marks import kilim_printing
 from ilmek.io.chart.legend import mounting_lines
 from ilmek.io.chart.pdf import write_chart_pdf
-from ilmek.io.chart.printing import Printing
+from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.rows_colours_pdf import colour_pages, write_colours_pdf
 from ilmek.io.chart.rows_pdf import write_rows_pdf
 from ilmek.io.chart.rows_text import header
@@ -240,6 +241,25 @@ def test_no_english_is_left_and_no_glyph_is_a_box(language: str, tmp_path: Path)
                 for part in lettering._parts(said):
                     face = pdfmetrics.getFont(part.font).face
                     assert min(face.charToGlyph[ord(code)] for code in part.glyphs) > 0
+
+
+@pytest.mark.parametrize("language", WEAVERS)
+def test_no_text_runs_into_the_next(language: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two texts on a baseline of a page, the left one ends before the other begins."""
+    drawn: list[tuple[int, float, float, float, str]] = []
+    draw = PrintCanvas._draw
+
+    def noted(canvas: PrintCanvas, x: float, y: float, text: str, share: float) -> None:
+        width = canvas.text_width(text)
+        drawn.append((canvas.getPageNumber(), y, x - share * width, x + (1 - share) * width, text))
+        draw(canvas, x, y, text, share)
+
+    monkeypatch.setattr(PrintCanvas, "_draw", noted)
+    for _ in papers(language, tmp_path, CHARTS[1:2]):
+        texts = sorted(one for one in drawn if len(one[-1]) > 2)
+        assert texts
+        assert not [(a, b) for a, b in pairwise(texts) if a[:2] == b[:2] and b[2] < a[3] + 1.0]
+        drawn.clear()
 
 
 @pytest.mark.parametrize("language", [code for code in FOREIGN if WEAVERS[code].leftward])

@@ -21,7 +21,7 @@ from ilmek.machines.tufting_gun.design import tufted_by_gun
 from ilmek.machines.tufting_gun.params import TuftingGunParams
 from ilmek.plane.level_sets import level_polygons
 from ilmek.weaving.gun.plan import GunPlan, gun_plan
-from ilmek.weaving.gun.reduction import opened, reduced
+from ilmek.weaving.gun.reduction import OUTSIDE, opened, reduced
 from ilmek.weaving.gun.regions import polygons_of, tuftable
 from ilmek.weaving.gun.travel import in_order, least_travel, travel_of
 from ilmek.weaving.tufts import Cone
@@ -45,6 +45,11 @@ DRAWN = {
     "diamonds": np.floor(3 * (x + y + 2)) % 2 + np.floor(3 * (x - y + 2)) % 2,
     "border": np.select([np.maximum(abs(x), abs(y)) > 0.85, np.maximum(abs(x), abs(y)) > 0.6], [0, 1], 2),
     "moons": np.select([np.hypot(x - 0.3, y) < 0.5, np.hypot(x + 0.2, y) < 0.6], [0, 1], 2),
+    "round": np.where(r < 0.97, np.floor(3 * r), OUTSIDE),
+    "islands": np.where(
+        (np.hypot(x - 0.45, y) < 0.4) | (np.hypot(x + 0.4, y + 0.3) < 0.5), np.floor(2 * y + 2), OUTSIDE
+    ),
+    "ragged": np.where(r < 0.8 + 0.12 * np.cos(9 * a), np.floor(a + 4), OUTSIDE),
     "blobs": np.digitize(np.sin(5 * x + 2 * np.sin(3 * y)) + np.sin(4 * y), [-0.5, 0.7]),
 }
 PICTURES = ("matrix", "phantom", "rubik", "smarties", "star", "tr")
@@ -53,7 +58,7 @@ PICTURES = ("matrix", "phantom", "rubik", "smarties", "star", "tr")
 def labels_of(name: str) -> np.ndarray:
     if name in DRAWN:
         shades = np.asarray(DRAWN[name], dtype=float)
-        return (shades - shades.min()).astype(np.uint8)
+        return np.where(shades == OUTSIDE, OUTSIDE, shades - shades.min()).astype(np.uint8)
     picture = Image.open(Path("tests/pictures") / f"{name}.png").convert("RGBA").convert("RGB")
     height = 700
     picture = picture.resize((round(height * picture.width / picture.height), height), Image.Resampling.BOX)
@@ -108,7 +113,9 @@ def test_strokes_cover_each_region_within_its_border(name: str) -> None:
         cells = np.kron(made[::-1] == colour.label, np.ones((4, 4), dtype=bool))
         assert not (rows & ~binary_dilation(cells, iterations=3)).any()  # the border is within 3/4 of a cell
         covered = rows if not covered.size else covered | rows
-    assert covered.mean() >= 0.98
+    inside = np.kron(labels[::-1] != OUTSIDE, np.ones((4, 4), dtype=bool))
+    assert covered[inside].mean() >= 0.98
+    assert not (covered & ~binary_dilation(inside, iterations=3)).any()
 
 
 def test_regions_have_the_level_sets_of_another_library() -> None:
@@ -200,9 +207,13 @@ def test_a_square_metre_takes_less_than_five_seconds() -> None:
 
 
 def run(tmp_path: Path, *more: str) -> tuple[int, dict, str]:
+    """The command on a flower; RELIEF: a picture whose left half is black, its right half white."""
+    relief = tmp_path / "relief.png"
+    Image.fromarray(np.indices((40, 40))[1].astype(np.uint8) // 20 * 255).save(relief)
     Image.fromarray((labels_of("flower") * 100).astype(np.uint8)).save(tmp_path / "flower.png")
     common = ("weave", str(tmp_path / "flower.png"), "--technique", "gun", "--out", str(tmp_path / "out"), "--force")
-    result = CliRunner().invoke(main, [*common, *more, "--json", str(tmp_path / "gun.json")])
+    given = (str(relief) if one == "RELIEF" else one for one in more)
+    result = CliRunner().invoke(main, [*common, *given, "--json", str(tmp_path / "gun.json")])
     data = json.loads((tmp_path / "gun.json").read_text()) if result.exit_code in {0, 3} else {}
     return result.exit_code, data, result.output
 
@@ -219,9 +230,28 @@ def test_the_command_writes_programme_page_and_report(tmp_path: Path) -> None:
     assert rs274.read((tmp_path / "out/gun.ngc").read_text()).ended
 
 
+def test_a_round_carpet_of_two_piles_takes_yarn_by_their_heights(tmp_path: Path) -> None:
+    """Yarn by hand; the gun stays within the circle, half a row and 3/4 of a cell of the chart beyond its path."""
+    piles = ("--pile-map", "RELIEF", "--pile-levels", "8mm, 14mm loop")
+    code, data, output = run(tmp_path, "--size", "40x40cm", "--shape", "round", *piles)
+    assert code == 0, output
+    low = [own for own in data["gun_colours"] if own["name"].endswith(", 8 mm")]
+    high = [own for own in data["gun_colours"] if own["name"].endswith(", 14 mm, loop")]
+    assert len(low) + len(high) == len(data["gun_colours"])
+    for own, height in [*((one, 8e-3) for one in low), *((one, 14e-3) for one in high)]:
+        stitch = 2 * (height + 0.5e-3) + 3e-3
+        assert own["yarn"] == pytest.approx(own["rows"] / 3e-3 * stitch + 2 * 0.03 * own["strokes"])
+    assert data["coverage"] >= 0.99
+    moves = rs274.read((tmp_path / "out/gun.ngc").read_text()).moves
+    points = np.array([(at["X"], at["Y"]) for _, on, _, start, end in moves if on for at in (start, end)])
+    assert np.hypot(*(points - 200.0).T).max() <= 200.0 - 1.5 + 0.75
+
+
 @pytest.mark.parametrize(
     ("settings", "check"),
     [
+        (("--pile-map", "RELIEF", "--pile-levels", "9mm, 70mm"), "highest pile"),
+        (("--pile-map", "RELIEF", "--pile-levels", "0.5mm, 9mm"), "lowest pile"),
         (("--gun", "cones=2"), "colours on the creel"),
         (("--gun", "room_width=30cm"), "width on the gantry"),
         (("--gun", "room_length=30cm"), "length on the gantry"),

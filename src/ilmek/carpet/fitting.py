@@ -224,7 +224,7 @@ def fit_prepared(
 def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
     """Notes on a picture that is cropped, stretched, or coarser than the carpet.
 
-    pixels  height and width of the fitted picture      grid  rows and columns of knots
+    pixels  height and width of the fitted picture      grid  rows and columns of cells
     """
     (height, width), (rows, columns) = pixels, grid
     notes = []
@@ -237,10 +237,8 @@ def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[i
             "--length, gives the other, and --fit offers crop, pad, stretch and turn"
         )
     if width < columns or height < rows:
-        knots = f"{columns} x {rows} knots"
-        notes.append(
-            f"the picture ({width} x {height} pixels) is coarser than the carpet ({knots}): edges will be stepped"
-        )
+        pixels_of, cells = f"{width} x {height} pixels", f"{columns} x {rows} cells"
+        notes.append(f"the picture ({pixels_of}) is coarser than the chart ({cells}): edges will be stepped")
     return tuple(notes)
 
 

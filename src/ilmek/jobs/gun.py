@@ -4,11 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
+from ilmek.arrays import Indices
+from ilmek.carpet.codes import NO_KNOT, pairs_of_codes
 from ilmek.carpet.quality import Quality
 from ilmek.errors import ParameterError
 from ilmek.io.gcode import write_gcode
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
+from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.tufted_chart import UnknottedResult, charted_for, cones_of, yarn_setting
@@ -19,8 +24,11 @@ from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
 from ilmek.report import Check, Result, results_of
+from ilmek.units import format_quantity
 from ilmek.viz.gun_page import gun_page
 from ilmek.weaving.gun.plan import CELLS, gun_plan
+from ilmek.weaving.gun.reduction import OUTSIDE
+from ilmek.weaving.tufts import Cone
 
 PROGRAMME, PAGE, REPORT = "gun.ngc", "report.html", "report.json"
 
@@ -91,14 +99,37 @@ def weave_by_gun(
 def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progress = SILENT) -> GunResult:
     """The plan of a carpet by a gun; nothing is written."""
     per_metre = CELLS / gun.params.row_spacing
-    charted = charted_for(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6), noun="tufting by a gun")
+    quality, part = Quality(per_metre, per_metre), progress.part(0.0, 0.6)
+    charted = charted_for(order, quality, part, noun="tufting by a gun", outline=True, piles=True)
     chart = charted.chart
+    labels, cones, heights = _labels(charted, gun.params.pile_height)
     size = (chart.columns / per_metre, chart.rows / per_metre)
     params, rows = gun.params, progress.part(0.6, 1.0)
     least = params.least_coverage
-    plan = gun_plan(chart.knots, size, params.row_spacing, params.feature, least=least, progress=rows)
-    tufted = tufted_by_gun(gun.params, plan, cones_of(charted), gun.deadline)
+    plan = gun_plan(labels, size, params.row_spacing, params.feature, least=least, progress=rows)
+    tufted = tufted_by_gun(params, plan, cones, heights, gun.deadline)
     return GunResult(charted, folder, gun, tufted, results_of(tufted))
+
+
+def _labels(charted: ChartResult, usual: float) -> tuple[Indices, tuple[Cone, ...], tuple[float, ...]]:
+    """A label for each yarn in each kind of pile: of each cell, and the cone and height [m] of each label.
+
+    usual  height of the pile where the chart has none [m]
+    """
+    chart, cells, cones = charted.chart, charted.chart.cells, cones_of(charted)
+    if cells is None:
+        return chart.knots, cones, (usual,) * len(cones)
+    pairs = [pair for pair in pairs_of_codes(chart.knots, cells.index).tolist() if pair[0] != NO_KNOT]
+    labels = np.full(chart.knots.shape, OUTSIDE, np.uint8)
+    for label, (yarn, kind) in enumerate(pairs):
+        labels[(chart.knots == yarn) & (cells.index == kind)] = label
+    kinds = [cells.kinds[kind] for _, kind in pairs]
+    heights = tuple(usual if kind.height is None else kind.height for kind in kinds)
+    named = []
+    for (yarn, _), kind, height in zip(pairs, kinds, heights, strict=True):
+        pile = f", {format_quantity(height, 'mm')}{', loop' if kind.loop else ''}" if len(set(kinds)) > 1 else ""
+        named.append(replace(cones[yarn], name=f"{cones[yarn].name}{pile}"))
+    return labels, tuple(named), heights
 
 
 def gun_json(result: GunResult) -> JsonObject:

@@ -96,7 +96,7 @@ URDU = {
     "legend.share": "حصہ",
     "legend.length": "لمبائی [میٹر]",
     "legend.mass": "وزن [گرام]",
-    "legend.to-buy": "خریداری [گرام]",
+    "legend.to-buy": "خرید [گرام]",
     "legend.hanks": "لچھیاں",
     "legend.ground": "زمین اور کنارے",
     "legend.all": "تمام دھاگے",

@@ -30,7 +30,8 @@ _SKIRTING, _BOARD, _SHADOW = 0.09, 0.14, 0.03
 _WHITE = 247
 """Code below which a picture shows a carpet and not its white paper."""
 
-_WALL, _TRIM, _OAK, _CLOTH, _SHADE = (232, 228, 219), (248, 246, 241), (181, 140, 98), (122, 134, 142), (50, 38, 26)
+_WALL, _TRIM, _CLOTH, _SHADE = (232, 228, 219), (248, 246, 241), (122, 134, 142), (50, 38, 26)
+_OAK = np.array((181, 140, 98), np.float32)
 
 
 @record
@@ -65,10 +66,11 @@ def draw_room(carpet: Image.Image, width: float, length: float) -> Image.Image:
 
 @record
 class _BareRoom:
-    """A room without its carpet: the wall, and of the rays to the floor where they meet it [m], boards and light."""
+    """A room without its carpet: wall, floor, and of the rays to the floor where they meet it [m], boards and light."""
 
     camera: _Camera
     wall: Rgb
+    floor: Rgb
     x: FloatArray
     y: FloatArray
     boards: FloatArray
@@ -84,7 +86,9 @@ def _bare_room(width: float, length: float) -> _BareRoom:
     horizon = int(np.count_nonzero(v > -_EYE / (camera.wall + camera.near)))
     y = -_EYE / v[horizon:, np.newaxis] - camera.near
     x = u * (y + camera.near)
-    return _BareRoom(camera, _wall(camera, u, v[:horizon]), x, y, _boards(x, y), _daylight(x, y, camera))
+    boards, light = _boards(x, y), _daylight(x, y, camera)
+    floor = _codes(_OAK * (boards * light)[..., np.newaxis])
+    return _BareRoom(camera, _wall(camera, u, v[:horizon]), floor, x, y, boards, light)
 
 
 def _camera(width: float, length: float) -> _Camera:
@@ -116,7 +120,7 @@ def _boards(x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def _floor(bare: _BareRoom, carpet: Image.Image, size: tuple[float, float]) -> Rgb:
-    (width, length), x, y, light = size, bare.x, bare.y, bare.light
+    (width, length), x, y = size, bare.x, bare.y
     texels = _framed(carpet, width)
     high, wide = texels.shape[:2]
     scale = carpet.width / width
@@ -125,12 +129,13 @@ def _floor(bare: _BareRoom, carpet: Image.Image, size: tuple[float, float]) -> R
     inside = (across > 0) & (across < wide - 1) & (down > 0) & (down < high - 1)
     seen = _read(texels, across[inside], down[inside])
     there = np.flatnonzero(inside)
-    shadow = np.ones(x.size, np.float32)
-    shadow[there] = 1.0 - 0.40 * seen[:, 3] / 255
-    floor = np.array(_OAK, np.float32) * (bare.boards * shadow.reshape(x.shape) * light)[..., np.newaxis]
+    boards, light = bare.boards.reshape(-1)[there], bare.light.reshape(-1)[there]
+    shown = _OAK * (boards * (1.0 - 0.40 * seen[:, 3] / 255) * light)[:, np.newaxis]
     pile = _coloured(seen)
-    floor.reshape(-1, 3)[there[pile]] = seen[pile, :3] * light.reshape(-1)[there[pile], np.newaxis]
-    return _codes(floor)
+    shown[pile] = seen[pile, :3] * light[pile, np.newaxis]
+    floor = bare.floor.copy()
+    floor.reshape(-1, 3)[there] = _codes(shown)
+    return floor
 
 
 def _framed(carpet: Image.Image, width: float) -> Rgb:

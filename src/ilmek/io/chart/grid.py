@@ -89,7 +89,7 @@ def _fill_cells(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks: In
     for yarn, pieces in sorted(runs(cells).items()):
         canvas.setFillColorRGB(*inks.fills[yarn])
         # Operators of PDF (ISO 32000-1, 8.5): reportlab writes a rectangle 15 times slower, and there are thousands.
-        canvas._code.append(" ".join([f"{first} {row} {count} 1 re" for row, first, count in pieces]) + " f")
+        canvas.addLiteral(" ".join([f"{first} {row} {count} 1 re" for row, first, count in pieces]) + " f")
     canvas.restoreState()
 
 
@@ -100,7 +100,7 @@ def hatch(canvas: PrintCanvas, boxes: Sequence[tuple[float, float, float, float]
     path = " ".join(f"{x:.3f} {y:.3f} {width:.3f} {height:.3f} re" for x, y, width, height in boxes)
     canvas.saveState()
     canvas.setFillGray(1.0)
-    canvas._code.append(f"{path} f {path} W n")
+    canvas.addLiteral(f"{path} f {path} W n")
     canvas.setStrokeGray(0.6)
     canvas.setLineWidth(0.4)
     rise = high - low
@@ -124,7 +124,7 @@ def _write_symbols(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks:
             written = "".join(line).rstrip()
             if written:
                 lines.append(f"1 0 0 1 {indent:.3f} {row * plan.cell_height + rise:.3f} Tm ({written}) Tj")
-        canvas._code.append("\n".join([*lines, "ET"]))
+        canvas.addLiteral("\n".join([*lines, "ET"]))
     canvas.restoreState()
 
 

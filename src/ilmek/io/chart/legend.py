@@ -247,15 +247,16 @@ def _heading(canvas: PrintCanvas, title: str, y: float, height: float) -> float:
 
 
 def mounting_lines(chart: Chart, made: Mounting) -> tuple[tuple[Sentence, Sentence], ...]:
-    """The mounting in words, each with its name; lengths in cm and mm.
+    """The mounting in words, each with its name; lengths in cm and mm, as they are measured on the loom.
 
     >>> from ilmek import read_yarns
     >>> from ilmek.carpet.mounting import mounting
     >>> made = Chart([[0] * 5, [1] * 5, [0] * 5], read_yarns()[:2], "10x6cm", "5x5/dm", "symmetric")
     >>> dict(mounting_lines(made, mounting(made)))["middle row"]
-    'in row 2, 3 cm from the lower edge'
+    'in row 2, 3.1 cm from the lower edge'
     """
-    quality, size = chart.quality, chart.size
+    across, along = (10 * cm * TENS / mark for mark in (made.knot_mark, made.row_mark))
+    halves = made.row_mark * chart.rows / TENS / 2, made.knot_mark * chart.columns / TENS / 2
 
     def line(key: str, text: str = "", **values: object) -> tuple[Sentence, Sentence]:
         return Sentence(f"mounting.{key}", count=TENS), Sentence(f"mounting.{text or f'{key}-text'}", **values)
@@ -264,9 +265,9 @@ def mounting_lines(chart: Chart, made: Mounting) -> tuple[tuple[Sentence, Senten
         line("warps", warps=thousands(made.warps), edges=made.selvedge_warps),
         line("pitch", pitch=format_number(made.pitch / mm), width=_cm(made.width)),
         line("length", length=_cm(made.warp_length), fringe=_cm(made.fringe)),
-        line("dense", across=format_number(quality.across / 10), along=format_number(quality.along / 10)),
-        line("middle-row", **_middle("row", made.middle_row), length=_cm(size.length / 2)),
-        line("middle-knot", **_middle("knot", made.middle_knot), length=_cm(size.width / 2)),
+        line("dense", across=format_number(round(across, 1)), along=format_number(round(along, 1))),
+        line("middle-row", **_middle("row", made.middle_row), length=_cm(round(halves[0], 3))),
+        line("middle-knot", **_middle("knot", made.middle_knot), length=_cm(round(halves[1], 3))),
         line("each-row", length=_cm(made.row_mark), count=TENS),
         line("each-knot", length=_cm(made.knot_mark)),
     )

@@ -58,14 +58,14 @@ def draw_line(
             ink = canvas._fillColorObj
             canvas.setStrokeGray(*ink) if isinstance(ink, tuple) and len(ink) == 1 else canvas.setStrokeColor(ink)
             canvas.setLineWidth(_HEAVY * size)
-            canvas._code.append("2 Tr")
+            canvas.addLiteral("2 Tr")
         canvas.setFont(part.font, size)
         if part.marked:
             actual = part.text.encode("utf-16-be").hex().upper()
-            canvas._code.append(f"/Span <</ActualText <FEFF{actual}>>> BDC")
+            canvas.addLiteral(f"/Span <</ActualText <FEFF{actual}>>> BDC")
         Canvas.drawString(canvas, x, y, part.glyphs)
         if part.marked:
-            canvas._code.append("EMC")
+            canvas.addLiteral("EMC")
         if heavy:
             canvas.restoreState()
         x += size * part.width

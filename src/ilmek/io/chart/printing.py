@@ -128,7 +128,7 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
 
     def lines(self, linelist: Iterable[tuple[float, float, float, float]]) -> None:
         """As of reportlab, which takes ten times as long to write the numbers (ISO 32000-1, 8.5)."""
-        self._code.append(" ".join(f"{x:.3f} {y:.3f} m {to:.3f} {up:.3f} l" for x, y, to, up in linelist) + " S")
+        self.addLiteral(" ".join(f"{x:.3f} {y:.3f} m {to:.3f} {up:.3f} l" for x, y, to, up in linelist) + " S")
 
     def write(self, x: float, y: float, text: str) -> None:
         """Write a text that begins x from the side where lines begin."""
@@ -159,7 +159,7 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
             if key not in self._shown:
                 self._shown[key] = self.operators(text, font, size), self.stringWidth(text, font, size)
             code, width = self._shown[key]
-            self._code.append(f"BT 1 0 0 1 {x - share * width:.3f} {y:.3f} Tm {code} T* ET")
+            self.addLiteral(f"BT 1 0 0 1 {x - share * width:.3f} {y:.3f} Tm {code} T* ET")
             return
         draw_line(
             self, x - share * line_width(text, size, font, rightward), y, text, size, base=font, rightward=rightward
@@ -170,9 +170,9 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         """The operators of PDF that show a text where a text object is (ISO 32000-1, 9.4), font included."""
         made = self.beginText()
         made.setFont(font, size)
-        made._curSubset = -1  # each text names its font, so that texts can follow in any order
-        code: str = made._formatText(text)
-        return code
+        made.textOut(text)
+        code: str = made.getCode()  # BT, where it begins, font, text, ET
+        return code.partition(" Tm ")[2].removesuffix(" ET")
 
     def code(self, letter: str, font: str) -> tuple[str, str]:
         """The name of the part of a font that has a letter, and its code in a text of PDF; a blank has its own."""

@@ -1,5 +1,6 @@
 """One strip of rows.pdf: the cells of a row, the counts and symbols of its runs above, numbers of knots below."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -69,7 +70,7 @@ class Typesetter:
             setting = "" if font == before else font
             shown.append(f"1 0 0 1 {x - half * len(text):.2f} {y:.2f} Tm {setting} {code}")
             before = "" if " Tf " in code else font
-        self.canvas._code.append("\n".join([*shown, "ET"]))
+        self.canvas.addLiteral("\n".join([*shown, "ET"]))
 
 
 def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
@@ -96,6 +97,13 @@ def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
 
 def levels_of(labels: list[RunLabel]) -> list[int]:
     """The level of each label, 0 the lowest: the lowest one on which it keeps its distance from the one before."""
+    last = -math.inf
+    for label in labels:
+        if last + LABEL_GAP > label.middle - label.width / 2 + 1e-6:
+            break
+        last = label.middle + label.width / 2
+    else:
+        return [0] * len(labels)
     ends: list[float] = []
     found = []
     for label in sorted(labels, key=lambda one: one.middle - one.width / 2):
@@ -114,6 +122,7 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
     """
     canvas, wide = setter.canvas, (strip.stop - strip.first) * plan.cell
     _cells(canvas, strip, plan, inks)
+    _frame(canvas, strip, plan, reading)
     labels = strip_labels(strip, plan, inks)
     placed = list(zip(labels, levels_of(labels), strict=True))
     base = STRIP + 1.8
@@ -131,7 +140,6 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
         if one.knots:
             texts.append((one.middle, low + 1.02 * plan.size, canvas.numerals(one.knots)))
     setter.show(texts)
-    _rulers(canvas, strip, plan, reading)
     _numbers(canvas, strip, wide)
 
 
@@ -152,7 +160,7 @@ def _dividers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, labels: list[
 
 
 def _cells(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
-    """Fill the runs, mark half knots and jufti knots, frame the strip."""
+    """Fill the runs, mark half knots and jufti knots."""
     whole: dict[int, list[str]] = {}
     marks = []
     for run in strip.runs:
@@ -170,10 +178,7 @@ def _cells(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, inks: Inks) -> N
             marks.append(f"{int(inks.white[run.yarn])} g {bars} f" if shown else "")
     cells = (f"{_filling(inks.fills[yarn])} {' '.join(boxes)}" for yarn, boxes in whole.items())
     # The unit is a cell; each box is filled alone, which keeps its edges sharp.
-    canvas._code += [f"q {plan.cell:.4f} 0 0 {STRIP} 0 0 cm", *cells, *marks, "Q"]
-    canvas.setStrokeGray(0.25)
-    canvas.setLineWidth(0.4)
-    canvas.rect(0, 0, (strip.stop - strip.first) * plan.cell, STRIP, stroke=1, fill=0)
+    canvas.addLiteral("\n".join([f"q {plan.cell:.4f} 0 0 {STRIP} 0 0 cm", *cells, *marks, "Q"]))
 
 
 @lru_cache(maxsize=512)
@@ -181,11 +186,17 @@ def _filling(colour: tuple[float, float, float]) -> str:
     return "{:.3f} {:.3f} {:.3f} rg".format(*colour)
 
 
-def _rulers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, reading: str) -> None:
-    """The numbers below the cells, which are drawn once for all strips of the same knots."""
-    name = f"ruler-{strip.first}-{reading}"
+def _frame(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, reading: str) -> None:
+    """The frame of the cells, the numbers below them and the box to tick, drawn once for strips of the same knots."""
+    name = f"frame-{strip.first}-{reading}"
     if not canvas.hasForm(name):
-        canvas.beginForm(name, -LEFT, -plan.pitch, plan.width, STRIP)
+        canvas.beginForm(name, -LEFT - 1.0, -plan.pitch, plan.width, STRIP + 1.0)
+        canvas.setStrokeGray(0.25)
+        canvas.setLineWidth(0.4)
+        canvas.rect(0, 0, (strip.stop - strip.first) * plan.cell, STRIP, stroke=1, fill=0)
+        canvas.setStrokeGray(0.2)
+        canvas.setLineWidth(0.6)
+        canvas.rect(-LEFT, -0.5, 9.0, 9.0, stroke=1, fill=0)
         for line, rightward in enumerate({"right": (True,), "left": (False,)}.get(reading, (True, False))):
             _ruler(canvas, strip, plan, line, rightward)
         canvas.endForm()
@@ -212,11 +223,7 @@ def _ruler(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, line: int, right
 
 
 def _numbers(canvas: PrintCanvas, strip: Strip, wide: float) -> None:
-    """The box to tick and the number of the row, at both sides."""
-    canvas.setStrokeGray(0.2)
-    canvas.setLineWidth(0.6)
-    canvas.rect(-LEFT, -0.5, 9.0, 9.0, stroke=1, fill=0)
-    canvas.setFillGray(0.0)
+    """The number of the row, at both sides."""
     size = 10.0 if strip.number < 10_000 else 8.0
     canvas.setFont(STRONG, size)
     canvas.drawRightString(-5.0, 1.0, str(strip.number))

@@ -5,6 +5,7 @@
     yarn of a colour = L / s (2 (h + t) + s) + 2 waste n
 
 L length of n strokes, v feed, w turning speed, v' travel speed, a acceleration, c colours, s stitch, h pile, t backing.
+A yarn in piles of two heights counts as two colours: the gun is set between them.
 """
 
 from collections.abc import Iterator, Mapping
@@ -12,9 +13,10 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ilmek.arrays import Complex, Float, FloatArray
-from ilmek.machines.tufting_gun.params import TuftingGunParams
+from ilmek.machines.tufting_gun.params import LOWEST, TALLEST, TuftingGunParams
 from ilmek.records import JsonObject, computed, record, result
 from ilmek.report import Check, at_least, at_most
+from ilmek.units import format_quantity
 from ilmek.weaving.gun.plan import ColourPlan, GunPlan
 from ilmek.weaving.tufts import Cone, tuft_yarn
 
@@ -41,12 +43,14 @@ class TuftedByGun:
     """A plan on a gun and gantry.
 
     cones  by the label of each colour                  yarn      of each colour [m], by its label
+    heights  of the pile of each label [m]
     clock  beginning and end of each stroke, and the end of the carpet [s]
     """
 
     params: TuftingGunParams
     plan: GunPlan
     cones: tuple[Cone, ...]
+    heights: tuple[float, ...]
     yarn_per_stitch: float = result("mm", "yarn of a stitch: both legs and the back stitch")
     yarn: Mapping[int, float]
     clock: Float[np.ndarray, " moments"]
@@ -100,8 +104,12 @@ class TuftedByGun:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Coverage, detail, colours, gantry, deadline."""
+        """Coverage, detail, colours, piles, gantry, deadline."""
         params, plan = self.params, self.plan
+        yarns = {self.cones[own.label].colour for own in plan.colours}
+        piles = "set heights of the pile from {} to {}".format(
+            *(format_quantity(side, "mm") for side in (LOWEST, TALLEST))
+        )
         lost = ", ".join(self.cones[label].name for label in plan.lost)
         finer = "set a smaller row_spacing or smallest, take fewer colours, or a larger carpet"
         bed = "set a larger room_width or room_length, or turn the picture, or take a smaller carpet"
@@ -117,9 +125,11 @@ class TuftedByGun:
             ),
             at_most("detail finer than the gun", plan.changed, params.most_lost, "%", "most_lost").with_cure(finer),
             at_most("colours without a row", len(plan.lost), 0, "1", lost or "every colour has one").with_cure(finer),
-            at_most("colours on the creel", len(plan.colours), params.cones, "1", "cones").with_cure(
+            at_most("colours on the creel", len(yarns), params.cones, "1", "cones").with_cure(
                 f"take at most {params.cones} colours, or set more cones"
             ),
+            at_least("lowest pile", min(self.heights), LOWEST, "mm", "the gun").with_cure(piles),
+            at_most("highest pile", max(self.heights), TALLEST, "mm", "the gun").with_cure(piles),
             at_most("width on the gantry", plan.width, params.room_width, "mm", "room_width").with_cure(bed),
             at_most("length on the gantry", plan.length, params.room_length, "mm", "room_length").with_cure(bed),
         )
@@ -133,15 +143,24 @@ class TuftedByGun:
 
 
 def tufted_by_gun(
-    params: TuftingGunParams, plan: GunPlan, cones: tuple[Cone, ...], deadline: float | None = None
+    params: TuftingGunParams,
+    plan: GunPlan,
+    cones: tuple[Cone, ...],
+    heights: tuple[float, ...] = (),
+    deadline: float | None = None,
 ) -> TuftedByGun:
-    """A plan on a gun and gantry; deadline  for the whole carpet [s]."""
-    per_stitch = float(tuft_yarn(params.pile_height, params.backing_thickness, params.stitch))
+    """A plan on a gun and gantry.
+
+    heights  of the pile by label [m]; default: pile_height for all      deadline  for the whole carpet [s]
+    """
+    heights = heights or (params.pile_height,) * len(cones)
+    piles = np.array([params.pile_height, *heights])
+    usual, *of_stitch = np.asarray(tuft_yarn(piles, params.backing_thickness, params.stitch)).tolist()
     yarn = {
-        colour.label: colour.length * per_stitch / params.stitch + 2 * params.waste * len(colour.strokes)
+        colour.label: colour.length * of_stitch[colour.label] / params.stitch + 2 * params.waste * len(colour.strokes)
         for colour in plan.colours
     }
-    return TuftedByGun(params, plan, cones, per_stitch, yarn, np.cumsum([*_spans(params, plan)]), deadline)
+    return TuftedByGun(params, plan, cones, heights, usual, yarn, np.cumsum([*_spans(params, plan)]), deadline)
 
 
 def _spans(params: TuftingGunParams, plan: GunPlan) -> Iterator[float]:

@@ -6,6 +6,9 @@ from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, param
 from ilmek.units import deg, format_quantity, g, hour, m, mm, turn
 
+LOWEST, TALLEST = 1 * mm, 60 * mm
+"""Bounds of the height of a pile; assumed by this project."""
+
 
 @dataclass(frozen=True, slots=True)
 class TuftingGunParams(Params):
@@ -18,7 +21,7 @@ class TuftingGunParams(Params):
         None, at_least=1 * mm, at_most=0.2, doc="smallest feature that is tufted; default: 5/3 of row_spacing"
     )
     stitch: float = kind.length(3 * mm, at_least=0.5 * mm, at_most=20 * mm, doc="distance of the stitches in a row")
-    pile_height: float = kind.length(10 * mm, at_least=1 * mm, at_most=60 * mm, doc="height of the pile")
+    pile_height: float = kind.length(10 * mm, at_least=LOWEST, at_most=TALLEST, doc="height of the pile")
     backing_thickness: float = kind.length(0.5 * mm, at_least=0.0, at_most=5 * mm, doc="thickness of the backing")
     yarn_density: float = kind.line_density(
         1.0 * g / m, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of all yarn in the needle"

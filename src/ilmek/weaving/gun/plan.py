@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import Complex, UInt8
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.weaving.gun.reduction import opened, reduced
+from ilmek.weaving.gun.reduction import OUTSIDE, opened, reduced
 from ilmek.weaving.gun.regions import tuftable
 from ilmek.weaving.gun.strokes import RegionStrokes, length_of, strokes_of
 from ilmek.weaving.gun.travel import in_order, least_travel, travel_of
@@ -36,6 +36,7 @@ class GunPlan:
     """The plan of a carpet of width x length [m].
 
     colours  in the order of the gun            spacing  distance of the rows [m]
+    area     within the outline of the carpet [m²]
     changed  share of the cells that took another colour, because what they are of is finer than the smallest feature
     lost     labels that have no stroke
     """
@@ -43,6 +44,7 @@ class GunPlan:
     colours: tuple[ColourPlan, ...]
     width: float
     length: float
+    area: float
     spacing: float
     changed: float
     lost: tuple[int, ...]
@@ -90,7 +92,7 @@ class GunPlan:
     @property
     def covered(self) -> float:
         """Share of the carpet that strokes cover."""
-        return sum(region.area - region.bare for region in self.regions) / (self.width * self.length)
+        return sum(region.area - region.bare for region in self.regions) / self.area
 
 
 def gun_plan(
@@ -102,7 +104,7 @@ def gun_plan(
     least: float = 0.99,
     progress: Progress = SILENT,
 ) -> GunPlan:
-    """The plan of labels, row 0 at the top.
+    """The plan of labels, row 0 at the top; OUTSIDE: not of the carpet.
 
     size      width and length of the carpet [m], of square cells        spacing   distance of the rows [m]
     smallest  width of the smallest feature that stays [m], at least the distance of the rows
@@ -112,7 +114,8 @@ def gun_plan(
     cell = width / labels.shape[1]
     diameter = max(CELLS, round(smallest / cell))
     made = reduced(labels, diameter)
-    present = np.unique(labels).tolist()
+    inside = labels != OUTSIDE
+    present = np.unique(labels[inside]).tolist()
     colours: list[ColourPlan] = []
     here = 0j
     for number, label in enumerate(sorted(present, key=lambda one: -int(np.count_nonzero(made == one)))):
@@ -123,5 +126,7 @@ def gun_plan(
             colours.append(ColourPlan(label, regions, strokes))
             here = complex(strokes[-1][-1])
     lost = set(present) - {colour.label for colour in colours}
-    changed = float(np.mean(made != labels)) if opened(made, diameter).any() else 1.0
-    return GunPlan(tuple(colours), width, length, spacing, changed, tuple(sorted(lost)))
+    wide = (opened(made, diameter) & inside).any()
+    changed = float(np.mean((made != labels)[inside])) if wide else 1.0
+    area = cell**2 * np.count_nonzero(inside)
+    return GunPlan(tuple(colours), width, length, area, spacing, changed, tuple(sorted(lost)))

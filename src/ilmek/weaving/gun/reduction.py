@@ -1,7 +1,7 @@
 """A chart reduced to what a tufting gun can make: every region open to a disk of the smallest feature.
 
 The opening of a region is the union of all disks in it [Serra 1982]. Cells outside the openings take the colour of the
-nearest cell that is in one, until every cell is, or nothing changes.
+nearest cell that is in one, until every cell is, or nothing changes. The outline of the carpet stays as it is.
 """
 
 import numpy as np
@@ -9,8 +9,8 @@ from scipy.ndimage import distance_transform_edt
 
 from ilmek.arrays import BoolArray, Int, UInt8
 
-_OUTSIDE = 255
-"""Label beyond the edge of the carpet."""
+OUTSIDE = 255
+"""Label of cells outside of the carpet's shape, and beyond its edge."""
 
 _PASSES = 6
 """Most passes; the second already changes less than a thousandth of the cells."""
@@ -34,7 +34,7 @@ def opened(labels: UInt8[np.ndarray, "rows columns"], diameter: int) -> BoolArra
     [[True, True, False], [True, True, False]]
     """
     rows, columns = labels.shape
-    wide = np.pad(labels, ((0, diameter), (0, diameter)), constant_values=_OUTSIDE)
+    wide = np.pad(labels, ((0, diameter), (0, diameter)), constant_values=OUTSIDE)
     cells = disk(diameter).tolist()
     first = wide[cells[0][0] :, cells[0][1] :][:rows, :columns]
     whole = np.ones((rows, columns), dtype=bool)
@@ -48,12 +48,13 @@ def opened(labels: UInt8[np.ndarray, "rows columns"], diameter: int) -> BoolArra
 
 def reduced(labels: UInt8[np.ndarray, "rows columns"], diameter: int) -> UInt8[np.ndarray, "rows columns"]:
     """Labels of which every cell is in a disk of its own label; unchanged where nothing is as wide as the disk."""
+    inside = labels != OUTSIDE
     for _ in range(_PASSES):
-        kept = opened(labels, diameter)
-        if kept.all() or not kept.any():
+        kept = opened(labels, diameter) & inside
+        if np.array_equal(kept, inside) or not kept.any():
             break
         row, column = distance_transform_edt(~kept, return_distances=False, return_indices=True)
-        nearest = labels[row, column]
+        nearest = np.where(inside, labels[row, column], OUTSIDE)
         if np.array_equal(nearest, labels):
             break
         labels = nearest
