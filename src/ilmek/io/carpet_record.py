@@ -139,8 +139,8 @@ def read_record(path: Path) -> tuple[JsonObject, str]:
         made = json.loads(text)
         shaped = isinstance(made["record"]["identity"], str) and isinstance(made["digests"], dict)
         shaped = shaped and isinstance(made["digest"], str) and isinstance(made["signature"], dict | None)
-    except (ValueError, TypeError, KeyError, RecursionError) as error:
-        raise ParameterError(f"{path} is no record of a carpet ({error})", allowed="JSON of `ilmek order`") from None
+    except (ValueError, TypeError, KeyError, RecursionError):
+        shaped = False
     if not shaped:
         raise ParameterError(f"{path} is no record of a carpet", allowed="JSON of `ilmek order`")
     return made, text

@@ -120,6 +120,9 @@ def _labels(charted: ChartResult, usual: float) -> tuple[Indices, tuple[Cone, ..
     if cells is None:
         return chart.knots, cones, (usual,) * len(cones)
     pairs = [pair for pair in pairs_of_codes(chart.knots, cells.index).tolist() if pair[0] != NO_KNOT]
+    if len(pairs) > OUTSIDE:
+        given = f"{len(pairs)} pairs of a yarn and a pile"
+        raise ParameterError(given, allowed=f"at most {OUTSIDE}", do="set fewer colours or levels of the pile")
     labels = np.full(chart.knots.shape, OUTSIDE, np.uint8)
     for label, (yarn, kind) in enumerate(pairs):
         labels[(chart.knots == yarn) & (cells.index == kind)] = label
