@@ -22,7 +22,7 @@ from ilmek.units import mm
 SMALL = {"width": "0.5m", "length": "0.5m", "knots_across": "12/dm"}
 LOOMS = (
     {"beat": "linkage", "heads": "2"},
-    {"beat": "comb", "heads": "2", "weft": "rapier"},
+    {"beat": "comb", "heads": "2", "weft": "rapier", "width": "0.6m"},
     {"beat": "guide-cams", "heads": "1"},
     {"beat": "travelling", "knotting": "hand"},
 )

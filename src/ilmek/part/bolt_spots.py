@@ -10,8 +10,10 @@ from ilmek.part.placement import Placement
 from ilmek.part.seat_faces import SeatFace
 from ilmek.units import turn
 
-EDGE = 1.5
-"""Distance of a screw's axis from an edge over its diameter, at least."""
+EDGE, PLATE_EDGE = 1.5, 0.8
+"""Distance of a screw's axis from an edge over its diameter, at least: of most screws, and of one in the end of an axle
+from the edge of the plate before it: assumed by this project.
+"""
 
 _APART, _ROW, _SINGLE = 40.0, 6.0, 3.0
 """Distance of neighbours over the diameter, at most; width from which there are two rows, and length up to which there
@@ -32,7 +34,7 @@ def free_points(face: SeatFace, other: SeatFace, across: Placement, diameter: fl
     if other.turned or face.turned:
         middle = across.inverse.origin if other.turned else np.zeros(3)
         points = np.array([complex(*middle[:2])])
-        apart = diameter / 2 + _ROUNDING
+        own, its = ((0.5 if side.turned else PLATE_EDGE) * diameter + _ROUNDING for side in (face, other))
     else:
         apart = EDGE * diameter
         low, high = _shared(face, other, across)
@@ -40,8 +42,8 @@ def free_points(face: SeatFace, other: SeatFace, across: Placement, diameter: fl
         if min(size.real, size.imag) < -_ROUNDING:
             return np.empty(0, complex)
         x, y = (_between(begin + apart, max(long, 0.0), diameter) for begin, long in _parts(low, size))
-        points = (x[:, None] + 1j * y).ravel()
-    return np.asarray(points[clear(face, points, apart) & clear(other, mapped(across, points), apart)])
+        points, own, its = (x[:, None] + 1j * y).ravel(), apart, apart
+    return np.asarray(points[clear(face, points, own) & clear(other, mapped(across, points), its)])
 
 
 def _parts(low: complex, size: complex) -> tuple[tuple[float, float], tuple[float, float]]:
