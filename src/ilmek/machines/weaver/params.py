@@ -96,7 +96,7 @@ class WeaverParams(Params):
     crossing_turn: float | None = kind.angle(
         None, above=0.0, at_most=turn / 2, doc="their rotation by the screw; default: until the ends cross"
     )
-    overlap: float = kind.length(3 * mm, at_least=5e-4, at_most=0.05, doc="ends past the middle when they cross")
+    overlap: float = kind.length(4 * mm, at_least=5e-4, at_most=0.05, doc="ends past the middle when they cross")
     finger: float = kind.length(2 * mm, above=0.0, at_most=0.05, doc="thickness of the grippers' rods and arms")
     clearance: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.05, doc="least room between moving parts")
     standoff: float = kind.length(
