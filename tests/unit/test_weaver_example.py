@@ -11,5 +11,5 @@ def test_the_drawings_of_the_pages_are_the_machines() -> None:
         assert (STATIC / f"{drawing.name}.svg").read_text(encoding="utf-8") == svg(drawing)
 
 
-def test_the_example_ends_with_the_yarn_of_the_bill() -> None:
+def test_the_example_ends_with_the_yarn_that_the_head_draws() -> None:
     assert round(HEAD.drawn / mm, 3) == 36.773

@@ -35,7 +35,13 @@ Limits: file 2 MB; 3000 carpets, 1000 looms, 50 shifts.
 @file_option("--out", "DIR", "Write page, picture, plan and purchase into a folder.")
 @text_option("--now", "TIME", "Begin of the plan, like 2026-12-03T10:00, for --looms with what they weave.")
 @file_option("--against", "PLAN.json", "An earlier plan, to compare the ends of the orders with.")
-@click.option("--aim", type=click.Choice(("cost", "late")), help="Least cost, or first the fewest late carpets.")
+@click.option(
+    "--aim",
+    type=click.Choice(("cost", "late")),
+    default="cost",
+    show_default=True,
+    help="Least cost, or first the fewest late carpets.",
+)
 @text_option("--time-limit", "TIME", "Time to plan in, like 30s; default: 10s for ten carpets, 60s for a hundred.")
 @force_option
 @json_option
@@ -46,7 +52,7 @@ def command(
     out: Path | None,
     now: str | None,
     against: Path | None,
-    aim: str | None,
+    aim: str,
     time_limit: str | None,
     force: bool,
     json_to: str | None,
@@ -60,7 +66,7 @@ def command(
     Ends with 3 where an order is late or cannot be woven.
     """
     from ilmek.io.plan_file import read_instant
-    from ilmek.jobs.plan import AIMS, plan_factory, read_time_limit
+    from ilmek.jobs.plan import plan_factory, read_time_limit
     from ilmek.jobs.plan_files import write_plan
     from ilmek.jobs.plan_results import plan_json
 
@@ -76,7 +82,7 @@ def command(
             time_limit=limit,
             now=begin,
             against=against,
-            aim=aim or AIMS[0],
+            aim=aim,
             progress=call.progress,
         )
         files = [] if out is None else write_plan(done, out, call.outputs)

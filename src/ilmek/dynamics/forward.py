@@ -50,7 +50,7 @@ MOST_STEPS = 200_000
 
 PACE, SLOW = 400, 0.1
 """Steps after which a run is ended that advanced less than a share of what its most steps need to reach its end: at
-rest a load or drive that jumps there lets the integrator do no more than tremble.
+rest, a load or drive that jumps there makes the integrator chatter.
 """
 
 

@@ -14,6 +14,7 @@ from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_run
 from ilmek.dynamics.own_machine import ForwardTask, OwnMachine, StopEvent
 from ilmek.dynamics.reduced import reduce
+from ilmek.dynamics.reversals import RESTING
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Rotation
 from ilmek.linkage.structure import Plan
@@ -25,9 +26,6 @@ SAMPLES = 600
 
 RTOL, MOST_STEPS = 1e-8, 20_000
 """Relative error of a step of the integrator, and its most steps."""
-
-REST = 1e-7
-"""Speed over the greatest of a run that counts as rest."""
 
 
 @record
@@ -58,7 +56,7 @@ class OwnForward:
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         inertia = self.run.reduced.terms(self.run.position).inertia
         size = np.fmax(greatest(required), greatest(inertia * self.run.acceleration))
-        moving = np.abs(self.run.speed) > REST * greatest(self.run.speed)
+        moving = np.abs(self.run.speed) > RESTING * greatest(self.run.speed)
         return greatest(np.where(moving, required - self.run.effort, 0.0)) / float(size) if size > 0 else 0.0
 
     @property

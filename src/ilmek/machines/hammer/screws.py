@@ -71,7 +71,7 @@ def screw_checks(screw: AxisScrew) -> tuple[Check, ...]:
     """Whether a screw and its nut bear their load."""
     more, slower = "set more axes, or a thicker screw_diameter", "set a larger lead, or a lower comb_acceleration"
     rated = "catalogue values, rounded down"
-    return (
+    checks = (
         at_least("buckling of the screws", screw.buckling, BUCKLING, "1", "Euler, one end clamped").with_cure(more),
         at_least("static load of the screws", screw.static, STATIC, "1", f"C0 over the load; {rated}").with_cure(more),
         at_most("critical speed of the screws", screw.critical, CRITICAL, "1", "80 % of the whirl").with_cure(slower),
@@ -82,14 +82,11 @@ def screw_checks(screw: AxisScrew) -> tuple[Check, ...]:
             "m/s",
             "assumed by this project: parameter axis_speed_value",
         ).with_cure(slower),
-        *(
-            at_least("life of the screws", life, screw.required_life, "h", f"ISO 3408-5, axis_life; {rated}").with_cure(
-                more
-            )
-            for life in (screw.life,)
-            if life is not None
-        ),
     )
+    if screw.life is None:
+        return checks
+    source = f"ISO 3408-5, axis_life; {rated}"
+    return *checks, at_least("life of the screws", screw.life, screw.required_life, "h", source).with_cure(more)
 
 
 def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
@@ -103,7 +100,6 @@ def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
     most, quickest, turned = float(force.max()), float(speed.max()), float(speed.sum())
     mean = float(np.sum(force**3 * speed) / turned) ** (1 / 3) if turned > 0 else 0.0
     whirl = _ROOT**2 * ball.core / 4 * math.sqrt(STEEL.modulus / STEEL.density) / load.length**2
-    turns = (dynamic / mean) ** 3 * 1e6 if mean > 0 else 0.0
     return AxisScrew(
         required_life=params.axis_life,
         speed_limit=params.axis_speed_value,
@@ -112,5 +108,5 @@ def _screw(params: HammerParams, load: ScrewLoad, diameter: float) -> AxisScrew:
         static=static / most if most > 0 else math.inf,
         critical=quickest / whirl,
         speed_value=diameter * quickest,
-        life=turns * turn / float(speed.mean()) if turned > 0 and mean > 0 else None,
+        life=(dynamic / mean) ** 3 * 1e6 * turn / float(speed.mean()) if mean > 0 else None,
     )

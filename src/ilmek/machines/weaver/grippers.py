@@ -104,7 +104,7 @@ class Grippers:
     @property
     def stagger(self) -> float:
         """Distance s of the right arm before the left one, along the screw [m]."""
-        return self.finger + self.clearance
+        return self.lift
 
     @property
     def wrap_radius(self) -> float:
@@ -166,7 +166,8 @@ def grippers_for(params: WeaverParams, drawn: float) -> Grippers:
 def crossing_of(params: WeaverParams) -> float:
     """Travel along the screw that leaves the centre gripper room before the arms [m]."""
     share = params.pair / (params.pair + 2 * params.overlap)
-    deep = (1.5 * params.finger + 2 * params.clearance + params.yarn / 2) / (1 - share)
+    stagger = params.finger + params.clearance
+    deep = (stagger + params.finger / 2 + params.clearance + params.yarn / 2) / (1 - share)
     front = (params.warp + params.finger) / 2 + params.clearance
     return front + (params.warp + params.yarn) / 2 + deep
 

@@ -22,6 +22,7 @@ from ilmek.machines.knotting_four_bar.hands.batch import BEARING, COLUMNS, EYE
 from ilmek.machines.knotting_four_bar.hands.hand import TyingHand
 from ilmek.machines.knotting_four_bar.hands.section import FINGER, FOOT
 from ilmek.machines.link_tree import body_id, inertia_of
+from ilmek.machines.own_linkage.axes import PinAxis
 from ilmek.machines.own_linkage.construction import Construction, construction
 from ilmek.machines.own_linkage.shafts import housing_length, shaft_lengths, shaft_seat
 from ilmek.machines.own_linkage.sizes import usual_diameter
@@ -243,16 +244,20 @@ def _base(made: HandParts, old: Part, feet: tuple[complex, complex], pillars: tu
     return replace(old, shape=shape, title="plate of a hand")
 
 
+def _driven(made: HandParts) -> PinAxis:
+    """The axis of the crank's shaft."""
+    return next(axis for axis in made.built.axes if axis.driven)
+
+
 def _shaft_end(made: HandParts) -> float:
     """Depth of the driven shaft's end below the face of the plate [m]."""
-    axis = next(axis for axis in made.built.axes if axis.driven)
+    axis = _driven(made)
     return shaft_lengths(made.built, axis).stub + housing_length(made.built.studs[axis.name])
 
 
 def _servo_pillars(made: HandParts, servo: MicroServo) -> tuple[complex, ...]:
     """Axes of both pillars of a servo's plate in the hand's frame [m]: beside it and the crank's housing, along u."""
-    axis = next(axis for axis in made.built.axes if axis.driven)
-    housing = shaft_seat(made.built.studs[axis.name])[2]
+    housing = shaft_seat(made.built.studs[_driven(made).name])[2]
     aside = max(servo.size[1] / 2 + SERVO_SCREW, housing / 2 + SERVO_SCREW / 2 + CLEAR)
     return made.hand.four_bar.a0 - aside, made.hand.four_bar.a0 + aside
 
@@ -262,8 +267,7 @@ def _servo_parts(made: HandParts, servo: MicroServo, pillars: tuple[complex, ...
     at, end = made.hand.four_bar.a0, -_shaft_end(made)
     length, width, height = servo.size
     face, under = end - PLATE, -made.built.thickness(GROUND)
-    axis = next(axis for axis in made.built.axes if axis.driven)
-    shaft = made.built.studs[axis.name].journal
+    shaft = made.built.studs[_driven(made).name].journal
     body = box(width, length, height)
     middle = placement(0.0, length / 4, -height)
     bought = Bought(servo.name, servo.mass, power=servo.power, drives=1)
