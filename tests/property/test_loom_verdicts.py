@@ -80,7 +80,6 @@ def _plate() -> float:
 BESIDE: dict[str, Figure | None] = {
     "room of the rapier": lambda loom: (loom.task.cloth.width + 0.51, 3.0),
     "bow of the beam behind the cams": None,  # between brackets as wide as the reducers' flanges it is low
-    "control: length of its mounting rails": None,  # fuses of large servos: more than the largest cabinet has
 }
 FAR: dict[str, Figure | None] = {"arms of the rapier|energy chain|lag of a head|pull at the eye": None}
 
@@ -103,7 +102,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
     ),
     # A rapier of the cloth's width, both runs to the edge, its clamp and drive, within 3 m beside the cloth.
     # One head on 4 m has too long a chain and belt, and a yarn that is led too far.
-    ({"beat": "guide-cams", "width": "4m", "length": "6m"}, BESIDE),
+    # Fuses of large servos: more than the largest cabinet has.
+    ({"beat": "guide-cams", "width": "4m", "length": "6m"}, {**BESIDE, "control: length of its mounting rails": None}),
     ({"beat": "comb", "heads": 7}, {}),
     ({"beat": "comb", "colours": 200}, {"energy chain: width of its lines": None}),
     # The head of the thesis leads both ends round the outside of their warps: never the asymmetric knot.
@@ -119,7 +119,6 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
             "cam stack": None,  # nothing is left of a guide cam for shims
             "buckling of a cam": None,  # it is thinner than its groove by the tolerance of the sheet
             "guide rod in its sleeve": None,  # the compensator's springs are short
-            "sag of the head": None,  # its bracket is for pitches from 0.5 mm on
             "yarn path: tension of the yarn": None,  # a yarn so fine bears less than the pull of the head
         },
     ),
@@ -132,7 +131,7 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
         {"beat": "comb", "yarns.warp_diameter": "2.2mm"},
         {
             "warps beside each other": lambda _: (2.2 * mm, 2 * mm),
-            "opener|land between slots|warp in its slot|groove against warp|Hertz|springs|clearance|cam|gap": None,
+            "opener|land between slots|warp in its slot|groove against warp|Hertz|springs|clearance|cam|gap|lip of a": None,
         },
     ),
     (
