@@ -81,7 +81,6 @@ BESIDE: dict[str, Figure | None] = {
     "room of the rapier": lambda loom: (loom.task.cloth.width + 0.51, 3.0),
     "bow of the beam behind the cams": None,  # between brackets as wide as the reducers' flanges it is low
 }
-FAR: dict[str, Figure | None] = {"arms of the rapier|energy chain|lag of a head|pull at the eye": None}
 
 DRIVE = r"force of a warp|distance of the rows|force of the crank-rockers"
 
@@ -131,7 +130,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
         {"beat": "comb", "yarns.warp_diameter": "2.2mm"},
         {
             "warps beside each other": lambda _: (2.2 * mm, 2 * mm),
-            "opener|land between slots|warp in its slot|groove against warp|Hertz|springs|clearance|cam|gap|lip of a": None,
+            "opener|land between slots|warp in its slot|groove against warp|Hertz|springs|clearance|cam|gap": None,
+            "lip of a side plate": None,
         },
     ),
     (
@@ -149,7 +149,6 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
             "buckling of the screws": buckling,
             "(?:life|static load|critical speed) of the screws|servo over": None,
             **BESIDE,
-            **FAR,
         },
     ),
     # Guide cams of 148 mm do not clear what stands 80 mm from their shaft.
