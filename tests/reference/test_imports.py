@@ -161,7 +161,7 @@ def test_the_command_writes_a_file_that_is_read_again(tmp_path: Path, capsys: py
 
 DAMAGED = {
     "cut off": (URDF[:300], "no XML"),
-    "another root": ("<svg/>", "<robot> of URDF"),
+    "another root": ("<svg/>", "begins with <svg>; URDF, MJCF"),
     "entities": ('<!DOCTYPE a [<!ENTITY b "c">]><robot/>', "document type"),
     "no root": (URDF.replace('<parent link="base"/>', '<parent link="tool"/>'), "hangs on no link"),
     "out of plane": (URDF.replace('<axis xyz="0 -1 0"/>', '<axis xyz="0 0 1"/>'), "out of the plane"),

@@ -37,7 +37,7 @@ main = LazyGroup(
         "compare": ("ilmek.cli.compare", "Compare measured curves with a machine's model, and fit parameters."),
         "study": ("ilmek.cli.study", "Sweep, sensitivity, tolerances, optimum of a machine or a mechanism."),
         "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),
-        "import": ("ilmek.cli.import_mechanism", "Write a mechanism of URDF, MJCF or pylinkage as a mechanism file."),
+        "import": ("ilmek.cli.import_mechanism", "Write a mechanism of another program as a mechanism file."),
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),

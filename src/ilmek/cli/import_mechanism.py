@@ -13,9 +13,10 @@ EXAMPLES = """\b
 Examples:
   ilmek import arm.urdf arm.toml
   ilmek import four-bar.xml four-bar.toml
-  ilmek import linkage.json linkage.toml
+  ilmek import walker.linkage2 walker.toml
+  ilmek import skeleton.dxf linkage.toml
 
-Limits: file 1 MB; one plane of motion.
+Limits: file 1 MB; one plane of motion; drawings of at most 200 links.
 """
 
 
@@ -26,7 +27,8 @@ Limits: file 1 MB; one plane of motion.
 def command(source: Path, target: Path, force: bool) -> None:
     """Write the mechanism of IN as OUT, a mechanism file, .toml or .json.
 
-    IN is URDF (an open chain), MJCF (a planar model) or JSON of pylinkage. What has no equivalent is listed.
+    IN is URDF (an open chain), MJCF (a planar model), a .linkage2 file, JSON of pylinkage, a text file with an address
+    of PMKS+ or an expression of Pyslvs, a SolveSpace sketch or a DXF skeleton. What has no equivalent is listed.
     """
     with call_outputs({"OUT": target}, force=force, inputs={"IN": source}) as call:
         imported = import_mechanism(source, target, outputs=call.outputs)

@@ -10,8 +10,10 @@ _CONTROL = bytes({*range(32), 127} - {*b"\t\n\r"})
 """Control characters that no text file of ilmek needs."""
 
 
-def read_text(path: Path, *, noun: str, largest: int, error: type[IlmekError], do: str) -> str:
-    """The text of a UTF-8 file of at most `largest` bytes without control characters.
+def read_text(
+    path: Path, *, noun: str, largest: int, error: type[IlmekError], do: str, encoding: str = "utf-8-sig"
+) -> str:
+    """The text of a file of at most `largest` bytes without control characters, in UTF-8 if no encoding is given.
 
     noun  the expected kind of file, in messages
     do    remedy for a missing file
@@ -31,7 +33,7 @@ def read_text(path: Path, *, noun: str, largest: int, error: type[IlmekError], d
     if not data.strip():
         raise error("is empty", do=f"give a {noun}")
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode(encoding)
     except UnicodeDecodeError as failed:
         raise error(f"line {_line(data, failed.start)} is not UTF-8 text", do="save the file as UTF-8") from None
     if len(data.translate(None, _CONTROL)) < len(data):

@@ -6,10 +6,11 @@ where the file has them.
 """
 
 import cmath
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ilmek.errors import MechanismError, shortened
 from ilmek.io.imports.foreign import Foreign, number
+from ilmek.io.imports.sketch import Drive, Sketch
 from ilmek.io.mechanism.points import third_corner
 from ilmek.linkage.model import GROUND
 from ilmek.records import JsonObject
@@ -23,39 +24,25 @@ def pylinkage_data(data: Entry) -> Foreign:
     entries = data["joints"]
     if not all(isinstance(entry, dict) and isinstance(entry.get("name"), str) for entry in entries):
         raise MechanismError("has a joint without a name", allowed="joints with type and name")
-    built = _Build({entry["name"]: entry for entry in entries})
+    given = data.get("name")
+    built = _Build(Sketch(given if isinstance(given, str) and given else "linkage"))
     waiting = sorted(entries, key=lambda entry: entry.get("type") != "Static")
     while waiting:
-        ready = [entry for entry in waiting if all(name in built.at for name in built.references(entry))]
+        ready = [entry for entry in waiting if all(name in built.sketch.points for name in built.references(entry))]
         if not ready:
             raise MechanismError(f"joint {shortened(waiting[0]['name'])!r} depends on itself, or on an unknown joint")
         for entry in ready:
             built.add(entry)
         waiting = [entry for entry in waiting if entry not in ready]
-    joints = {}
-    for name in built.at:
-        bodies = [body for body, points in built.bodies.items() if name in points]
-        if len(bodies) > 1:
-            joints[name] = {"pin": bodies}
-    points = {
-        body: {"points": {name: [built.at[name].real * mm, built.at[name].imag * mm] for name in names}}
-        for body, names in built.bodies.items()
-    }
-    left_out = (*built.left_out, *(["solve_order"] if data.get("solve_order") else []))
-    given = data.get("name")
-    whole = {"name": given if isinstance(given, str) and given else "linkage", "units": "SI", "confirm": ["lengths"]}
-    return Foreign({**whole, "bodies": points, "joints": joints, "inputs": built.inputs}, left_out)
+    built.sketch.left_out += ["solve_order"] if data.get("solve_order") else []
+    return built.sketch.foreign()
 
 
 @dataclass(slots=True)
 class _Build:
-    """Positions of the joints found so far, bodies with their joints, and the cranks."""
+    """The joints whose positions are known so far."""
 
-    entries: dict[str, Entry]
-    at: dict[str, complex] = field(default_factory=dict)
-    bodies: dict[str, list[str]] = field(default_factory=lambda: {GROUND: []})
-    inputs: dict[str, str] = field(default_factory=dict)
-    left_out: list[str] = field(default_factory=list)
+    sketch: Sketch
 
     def references(self, entry: Entry) -> list[str]:
         """Names of the joints on which one hangs; a point given in place is added to the ground."""
@@ -67,7 +54,7 @@ class _Build:
             name = given.get("ref") or given.get("name")
             if not isinstance(name, str):
                 raise MechanismError(f"{key} of {shortened(entry['name'])!r} has no name")
-            if given.get("inline") and name not in self.at:
+            if given.get("inline") and name not in self.sketch.points:
                 self._static(given, name)
             names.append(name)
         return names
@@ -79,53 +66,51 @@ class _Build:
         if needed is None:
             allowed = "Static, Crank, Revolute and Fixed"
             raise MechanismError(f"joint {shortened(name)!r} is of type {shortened(repr(kind))}", allowed=allowed)
-        if len(ends) < needed or (needed == 2 and self.at[ends[0]] == self.at[ends[1]]):
+        at = [self.sketch.points[end] for end in ends]
+        if len(ends) < needed or (needed == 2 and at[0] == at[1]):
             raise MechanismError(
                 f"joint {shortened(name)!r} needs {needed} other joints", allowed="apart from one another"
             )
         if kind == "Static":
             self._static(entry, name)
         elif kind == "Crank":
-            centre, length = self.at[ends[0]], self._length(entry, "distance")
-            self.at[name] = centre + cmath.rect(length, cmath.phase(self._hint(entry, centre + 1) - centre))
-            self.bodies[name] = [ends[0], name]
-            self.inputs[ends[0]] = name
-            self.left_out.append(f"angle of each step of crank {name}: give the speed")
+            angle = cmath.phase(self._hint(entry, at[0] + 1) - at[0])
+            self.sketch.points[name] = at[0] + cmath.rect(self._length(entry, "distance"), angle)
+            self.sketch.inputs[ends[0]] = Drive(self.sketch.body(name, [ends[0], name]))
+            self.sketch.left_out.append(f"angle of each step of crank {name}: give the speed")
         elif kind == "Revolute":
-            self._revolute(entry, name, *ends[:2])
+            hint = self._hint(entry, at[0] + 1j * (at[1] - at[0]))
+            left = ((at[1] - at[0]).conjugate() * (hint - at[0])).imag >= 0
+            sides = self._length(entry, "distance0"), self._length(entry, "distance1")
+            self.sketch.points[name] = third_corner(at[0], at[1], *sides, left=left)
+            for end in ends[:2]:
+                self.sketch.body(f"{end}-{name}", [end, name])
         else:
             self._fixed(entry, name, *ends[:2])
 
     def _static(self, entry: Entry, name: str) -> None:
-        self.at[name] = complex(number(entry.get("x"), f"x of {name}"), number(entry.get("y"), f"y of {name}"))
-        self.bodies[GROUND].append(name)
-
-    def _revolute(self, entry: Entry, name: str, first: str, second: str) -> None:
-        start, end = self.at[first], self.at[second]
-        sides = self._length(entry, "distance0"), self._length(entry, "distance1")
-        hint = self._hint(entry, start + 1j * (end - start))
-        left = ((end - start).conjugate() * (hint - start)).imag >= 0
-        self.at[name] = third_corner(start, end, *sides, left=left)
-        self.bodies |= {f"{first}-{name}": [first, name], f"{second}-{name}": [second, name]}
+        at = complex(number(entry.get("x"), f"x of {name}"), number(entry.get("y"), f"y of {name}"))
+        self.sketch.points[name] = at * mm
+        self.sketch.bodies[GROUND].append(name)
 
     def _fixed(self, entry: Entry, name: str, first: str, second: str) -> None:
         arm = cmath.rect(self._length(entry, "distance"), number(entry.get("angle"), f"angle of {name}"))
-        base = self.at[second] - self.at[first]
-        self.at[name] = self.at[first] + arm * base / abs(base)
-        body = next((body for body, names in self.bodies.items() if {first, second} <= set(names)), None)
-        if body is None:
+        base = self.sketch.points[second] - self.sketch.points[first]
+        bodies = self.sketch.carriers(first, second)
+        if not bodies:
             raise MechanismError(
                 f"joint {shortened(name)!r} is fixed to {first} and {second}", allowed="joints of one body"
             )
-        self.bodies[body].append(name)
+        self.sketch.points[name] = self.sketch.points[first] + arm * base / abs(base)
+        self.sketch.bodies[bodies[0]].append(name)
 
     def _length(self, entry: Entry, key: str) -> float:
         length = number(entry.get(key), f"{key} of {entry['name']}")
         if not length > 0:
             raise MechanismError(f"{key} of {shortened(entry['name'])!r} is {length:g}", allowed="above 0")
-        return length
+        return length * mm
 
     def _hint(self, entry: Entry, default: complex) -> complex:
         if entry.get("x") is None or entry.get("y") is None:
             return default
-        return complex(number(entry["x"], "x"), number(entry["y"], "y"))
+        return complex(number(entry["x"], "x"), number(entry["y"], "y")) * mm
