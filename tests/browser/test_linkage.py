@@ -166,3 +166,25 @@ def test_an_optional_key_is_added_and_a_point_is_chosen(page: Page, running: Stu
     springs.get_by_label("Add …").select_option("damping")
     expect(springs.get_by_label("balance damping")).to_have_value("1N*s/m")
     until(lambda: data_of(running.project, path)["springs"]["balance"].get("damping") == "1N*s/m")
+
+
+def test_a_file_of_another_program_is_opened_and_moves(page: Page, running: Studio) -> None:
+    """A slider-crank of Linkage, with a drawing element that has no equivalent."""
+    places = {0: (0, 0, 'anchor="true" input="true"'), 1: (0, 40, ""), 2: (-200, 0, 'anchor="true"')}
+    places |= {3: (200, 0, 'anchor="true"'), 4: (110, 0, 'slider="true"'), 5: (9, 9, 'layer="1"')}
+    limits = '<slidelimit id="2"/><slidelimit id="3"/>'
+    connectors = "".join(
+        f'<connector id="{key}" x="{x}" y="{y}" {more}>{limits if key == 4 else ""}</connector>'
+        for key, (x, y, more) in places.items()
+    )
+    links = "".join(
+        f'<Link id="{key}"><connector id="{a}"/><connector id="{b}"/></Link>'
+        for key, (a, b) in enumerate([(0, 1), (1, 4)])
+    )
+    open_view(page, running, "linkage")
+    drawn = {"name": "crank.linkage2", "mimeType": "", "buffer": f"<linkage2>{connectors}{links}</linkage2>".encode()}
+    page.locator("input[type=file]").set_input_files(drawn)  # type: ignore[arg-type]
+    expect(page.get_by_text("drawing and measuring elements")).to_be_visible()
+    expect(page.locator("[data-body=L1]")).to_be_visible()
+    degrees_of_freedom(page, 1, 1)
+    assert data_of(running.project, "linkages/crank.toml")["inputs"] == {"P0": "L0"}

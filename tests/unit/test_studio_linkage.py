@@ -15,6 +15,7 @@ from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.linkage.answer import MechanismAnswer
+from ilmek.jobs.studio.linkage.foreign import ForeignRequest, foreign_mechanism
 from ilmek.jobs.studio.linkage.part import joined_part
 from ilmek.jobs.studio.linkage.quality import quality
 from ilmek.jobs.studio.linkage.tasks import DraggedJoint, MechanismRequest, changed, mechanism
@@ -325,3 +326,17 @@ def test_a_cylinder_of_a_loose_body_is_left_out_with_it() -> None:
     assert loose == ("lid",)
     assert "cylinders" not in part
     assert part["branches"] == {"lid": 1}
+
+
+def test_a_file_of_another_program_is_the_text_of_a_mechanism_file(tmp_path: Path) -> None:
+    """As `ilmek import`; bytes of no UTF-8 are read as the programs write them."""
+    joints = {"0,0": "ground,crank", "0,20": "crank,rod", "90,60": "rod,rocker", "80,0": "ground,rocker"}
+    expression = f"M[{','.join(f'J[R,P[{at}],L[{links}]]' for at, links in joints.items())}]"
+    answer = foreign_mechanism(
+        ForeignRequest("a.txt", b"# four-bar, 20 \xb5m\n" + expression.encode()), Context(str(tmp_path))
+    )
+    assert mechanism_of_data(tomllib.loads(answer.text)).mechanism.name == "mechanism"
+    assert answer.left_out == ("the input, which the file does not have: P0 turns crank",)
+    for content, message in ((b"\0" * 2_000_000, "at most 1,000,000"), (b"crank", "a.txt: .*JSON")):
+        with pytest.raises(MechanismError, match=message):
+            foreign_mechanism(ForeignRequest("a.txt", content), Context(str(tmp_path)))

@@ -259,6 +259,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         affinity="linkage",
     ),
     _post(
+        "/mechanism/foreign",
+        "studio.linkage.foreign:foreign_mechanism",
+        "A mechanism of another program's file as the text of a mechanism file.",
+        affinity="linkage",
+        upload=("application/octet-stream",),
+    ),
+    _post(
         "/mechanism/quality",
         "studio.linkage.quality:quality",
         "Circuits, mobility, coupler curves, least transmission angles and the checks of `ilmek mechanism`.",

@@ -927,6 +927,26 @@ export interface VectorSeries {
   y: (number | null)[];
 }
 /**
+ * Its mechanism as the TOML text of a mechanism file, and what has no equivalent.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ForeignAnswer".
+ */
+export interface ForeignAnswer {
+  text: string;
+  left_out: string[];
+}
+/**
+ * A file of another program: its name, and its bytes.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ForeignRequest".
+ */
+export interface ForeignRequest {
+  name: string;
+  content: string;
+}
+/**
  * A declared parameter.
  *
  *     name     dotted where it is of a record or of another machine: `pile_handler.rise`, `shedding.law`

@@ -57,9 +57,14 @@ def imported_mechanism(path: Path) -> ImportedMechanism:
     with restated(MechanismError, f"{noun} {path} ", of=MechanismError):
         text = read_text(path, noun=noun, largest=LARGEST, error=MechanismError, do="check the path", encoding=encoding)
     with restated(MechanismError, f"{path}: "):
-        data, left_out = _driven(_foreign(text))
-        file = mechanism_of_data(data)
-        file.plan()
+        return mechanism_of_text(text)
+
+
+def mechanism_of_text(text: str) -> ImportedMechanism:
+    """The mechanism of another program's text, as `imported_mechanism`."""
+    data, left_out = _driven(_foreign(text))
+    file = mechanism_of_data(data)
+    file.plan()
     return ImportedMechanism(file, left_out)
 
 

@@ -1,6 +1,8 @@
 /** Mechanism files: the one that is shown, a new one, one from the user's disc, a copy under another name. */
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
+import type { ForeignAnswer } from "../../api/messages";
+import { upload } from "../../api/request";
 import { rename } from "../../app/routes";
 import { freePath, newFile } from "../../project";
 import { t } from "../../text";
@@ -36,20 +38,37 @@ export function createEmpty(): Promise<void> {
 /** Largest mechanism file [bytes]. */
 const LARGEST = 1_000_000;
 
-/** Takes a .toml or .json file of the user's disc into the project. */
+/** Takes a mechanism file of the user's disc into the project, or a file of another program. */
 export async function openFile(file: File): Promise<void> {
   const stem = file.name.replace(/\.[^.]*$/, "").replace(/[^\w-]+/g, "-") || "linkage";
-  if (!/\.(toml|json)$/i.test(file.name) || file.size > LARGEST) {
+  if (file.size > LARGEST) {
     toast(t("linkage.notMechanismFile", { name: file.name }), "bad");
     return;
   }
-  const text = await file.text();
-  if (/\.toml$/i.test(file.name)) return create(stem, () => ({ text }));
+  if (/\.toml$/i.test(file.name)) {
+    const text = await file.text();
+    return create(stem, () => ({ text }));
+  }
+  if (/\.json$/i.test(file.name)) {
+    try {
+      const data = JSON.parse(await file.text()) as { joints?: unknown };
+      if (!Array.isArray(data.joints)) return await create(stem, () => ({ data }));
+    } catch (error) {
+      toast(t("linkage.notJson", { name: file.name }), "bad", String(error));
+      return;
+    }
+  }
+  await importFile(file, stem);
+}
+
+async function importFile(file: File, stem: string): Promise<void> {
   try {
-    const data: unknown = JSON.parse(text);
-    await create(stem, () => ({ data }));
+    const path = `/mechanism/foreign?name=${encodeURIComponent(file.name)}`;
+    const { text, left_out } = await upload<ForeignAnswer>(path, file);
+    await create(stem, () => ({ text }));
+    if (left_out.length > 0) toast(t("linkage.leftOut", { name: file.name }), "info", left_out.join("; "));
   } catch (error) {
-    toast(t("linkage.notJson", { name: file.name }), "bad", String(error));
+    toast(t("linkage.notCreated"), "bad", error instanceof Error ? error.message : String(error));
   }
 }
 
@@ -74,7 +93,7 @@ export function FileBar({ name, names }: { name: string; names: readonly string[
       <input
         ref={input}
         type="file"
-        accept=".toml,.json"
+        accept=".toml,.json,.linkage2,.slvs,.dxf,.urdf,.xml,.txt,.pyslvs"
         hidden
         aria-label={t("linkage.openFile")}
         onChange={(event) => {

@@ -1,4 +1,4 @@
-import{dt as e,et as t,lt as n,st as r,tt as i}from"./ui-B2DGrBXU.js";import{C as a,w as o}from"./strokes-BiikK0-K.js";var s=`#version 300 es
+import{dt as e,et as t,lt as n,st as r,tt as i}from"./ui-DclGgGtY.js";import{C as a,w as o}from"./strokes-BiikK0-K.js";var s=`#version 300 es
 uniform vec4 u_tile;   // first column and line, columns and lines of the tile
 uniform vec4 u_view;   // middle of the view [knots], breadth and height of a knot [px]
 uniform vec2 u_size;   // of the canvas [px]

@@ -1,0 +1,1 @@
+import{n as e,t}from"./request-DpDMbAKI.js";function n(n){return n instanceof e||n instanceof DOMException&&n.name===`AbortError`?null:n instanceof t?{given:n.given,allowed:n.allowed,do:n.do}:{given:n instanceof Error?n.message:String(n),allowed:``,do:``}}export{n as t};

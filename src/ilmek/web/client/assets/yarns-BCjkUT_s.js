@@ -1,1 +1,0 @@
-export{t as Yarns}from"./yarns-BdnUuzIs.js";

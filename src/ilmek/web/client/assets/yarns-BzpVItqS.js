@@ -1,0 +1,1 @@
+export{t as Yarns}from"./yarns-CLCZuE0U.js";
