@@ -300,7 +300,7 @@ start = 2026-12-01
 currency = "EUR"
 language = "%s"
 [price]
-finishing = "12 EUR"
+finishing = "12 EUR/m^2"
 %s
 [[order]]
 name = "Halves"
@@ -312,7 +312,7 @@ carve = "all"
 due = 2027-03-01
 """
     costs = []
-    for language, price in (("en", ""), ("tr", 'carving = "5 EUR"')):
+    for language, price in (("en", ""), ("tr", 'carving = "5 EUR/m"')):
         (tmp_path / "order.toml").write_text(order % (language, price), encoding="utf-8")
         done = run("order", tmp_path / "order.toml", "--out", tmp_path / language, "--json", "-")
         assert done.exit_code == 0, done.output

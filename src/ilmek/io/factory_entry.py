@@ -15,12 +15,14 @@ from ilmek.units import format_number, from_si, has_unit, parse_quantity, parse_
 LARGEST = 2_000_000
 """Largest file of orders, and of looms [bytes]."""
 
-MOST_MONEY = 1e9
+MOST_MONEY = re.compile(
+    r"\s*(\d{1,12}(?:\.\d{1,6})?)\s*([^\W\d_]{1,12}|[€$£¥₺₹﷼])(?:\s*/\s*([a-z]{1,4}(?:\^?[23]|[²³])?))?\s*"
+)
 """Largest amount of money of an entry, in its currency."""
 
 FIRST_YEAR, LAST_YEAR = 1900, 2200
 
-_MONEY = re.compile(r"\s*(\d{1,12}(?:\.\d{1,6})?)\s*([^\W\d_]{1,12}|[€$£¥₺₹﷼])(?:\s*/\s*([a-z]{1,4}))?\s*")
+_MONEY = re.compile(r"\s*(\d{1,12}(?:\.\d{1,6})?)\s*([^\W\d_]{1,12}|[€$£¥₺₹﷼])(?:\s*/\s*([a-z]{1,4}(?:\^?[23]|[²³])?))?\s*")
 _CURRENCY = re.compile(r"[^\W\d_]{1,12}|[€$£¥₺₹﷼]")
 _CLOCK = re.compile(r"([01]?\d|2[0-4]):([0-5]\d)")
 
@@ -77,7 +79,10 @@ class FactoryEntry(FileEntry):
         except IlmekError as error:
             self.refuse(error, key)
         if unit.dimension != needed.dimension:
-            self.refuse(ParameterError(f"{shown(value)} has the wrong unit", allowed=f"{currency}/{per}"), key)
+            self.refuse(
+                ParameterError(f"{shown(value)} has the wrong unit", allowed=f"{currency}/{per}" if per else currency),
+                key,
+            )
         amount = float(found[1])
         if amount > MOST_MONEY:
             self.refuse(ParameterError(f"{shown(value)} is too much", allowed=f"at most {MOST_MONEY:g}"), key)

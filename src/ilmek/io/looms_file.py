@@ -54,12 +54,14 @@ from dataclasses import dataclass, field
 from datetime import date, datetime
 from pathlib import Path
 
+from ilmek.carpet.price_rules import WageRules
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import LARGEST, FactoryEntry, datetime_of, file_beside
 from ilmek.io.journal_folder import JOURNAL
+from ilmek.io.order_terms import read_wage
 from ilmek.io.schema import SourceText, shown
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.params import Setting
@@ -171,7 +173,7 @@ class StockEntry:
 
 @dataclass(frozen=True, slots=True)
 class FactoryLooms:
-    """Looms, shifts, holidays and yarns of a file."""
+    """Looms, shifts, holidays and yarns of a file, and the wage of its weavers by knots."""
 
     path: Path
     currency: str
@@ -179,6 +181,7 @@ class FactoryLooms:
     looms: tuple[LoomEntry, ...]
     holidays: tuple[date, ...] = ()
     yarns: tuple[StockEntry, ...] = field(default=())
+    wage: WageRules | None = None
 
 
 def read_looms(path: Path) -> FactoryLooms:
@@ -192,7 +195,7 @@ def read_looms(path: Path) -> FactoryLooms:
 
 
 def _looms(root: FactoryEntry, path: Path) -> FactoryLooms:
-    root.keys("currency", "holidays", "shift", "loom", "yarn", needs=("shift", "loom"))
+    root.keys("currency", "holidays", "shift", "loom", "yarn", "wage", needs=("shift", "loom"))
     currency = root.currency(EURO)
     shifts = tuple(_shift(row) for row in _rows(root, "shift", MOST_SHIFTS))
     known = tuple(shift.name for shift in shifts)
@@ -207,7 +210,8 @@ def _looms(root: FactoryEntry, path: Path) -> FactoryLooms:
             if name in names[:index]:
                 row = root.rows(noun)[index]
                 row.refuse(ParameterError(f"two are named {name!r}", do="give each its own name"), "name")
-    return FactoryLooms(path, currency, shifts, looms, tuple(root.dates("holidays", MOST_HOLIDAYS)), yarns)
+    holidays = tuple(root.dates("holidays", MOST_HOLIDAYS))
+    return FactoryLooms(path, currency, shifts, looms, holidays, yarns, read_wage(root, currency))
 
 
 def _rows(root: FactoryEntry, key: str, most: int, least: int = 1) -> list[FactoryEntry]:

@@ -51,8 +51,8 @@ def read_price(root: FactoryEntry, currency: str) -> PriceRules:
         row.measured("tax", "%", usual.tax, most=1.0),
         tuple(sorted(steps)),
         row.count("valid", usual.valid, 1, 1000),
-        row.money("finishing", currency),
-        row.money("carving", currency),
+        row.money("finishing", currency, "m^2"),
+        row.money("carving", currency, "m"),
     )
 
 

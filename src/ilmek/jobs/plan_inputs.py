@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
 
+from ilmek.carpet.price_rules import WageRules
 from ilmek.errors import ParameterError
 from ilmek.factory.calendar import Calendar, Shift, calendar, without
 from ilmek.factory.model import HOUR, MONEY, CarpetJob, Factory, Loom, StoredYarn
@@ -33,6 +34,11 @@ class FactoryInputs:
     factory: Factory
     origin: datetime
     begun: tuple[BegunCarpet, ...] = ()
+
+    @property
+    def wage(self) -> WageRules | None:
+        """The wage of weavers: that of the orders, else of the looms' file."""
+        return self.orders_file.wage or self.looms_file.wage
 
     def time(self, minutes: int) -> datetime:
         """The instant of a minute of the plan."""

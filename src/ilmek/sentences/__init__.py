@@ -23,16 +23,18 @@ class Language(NamedTuple):
 
     module    of its catalogue           digits  0 to 9
     leftward  lines begin at the right   local   digits have the forms that a font has for it (locl of OpenType)
+    point     before decimals, on paper
     """
 
     module: str
     digits: str = LATIN
     leftward: bool = False
     local: bool = False
+    point: str = "."
 
 
 DEFAULT = "en"
-LANGUAGES = {"en": Language("english"), "tr": Language("turkish")}
+LANGUAGES = {"en": Language("english"), "tr": Language("turkish", point=",")}
 """The languages that have every sentence."""
 
 WEAVERS = LANGUAGES | {

@@ -46,6 +46,9 @@ _KEPT = str.maketrans(LATIN, "".join(chr(0xE000 + digit) for digit in range(10))
 _SHOWN = {code: chr(digit) for digit, code in _KEPT.items()}
 """Digits of a name within a sentence, for private use while those around them are changed."""
 
+_POINT = re.compile(r"(?<![.\d])(\d[\d\u202f]*)\.(?=\d)(?!\d+\.\d)")
+"""The point of one decimal number, not of 1.2.3."""
+
 _SIGNS = {".": "٫", "\u202f": "٬"}
 """Decimal point and mark of thousands between Arabic digits."""
 
@@ -91,6 +94,7 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         super().__init__(str(path), pageCompression=1, invariant=1, **more)
         language = language_spoken()
         self.unit, self.leftward, self.printing = 1, language.leftward, PLAIN
+        self._point = language.point
         self._digits = str.maketrans(LATIN, DIGITS[digits] if digits else language.digits)
         self._figures: dict[str, str] = {}
         self._shown: dict[tuple[str, str, float], tuple[str, float]] = {}
@@ -103,12 +107,16 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
             return text
         if not isinstance(text, Sentence):
             if text not in self._figures:
-                parts = (part if _CODE.match(part) else part.translate(self._digits) for part in _WORDS.split(text))
-                self._figures[text] = _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], "".join(parts))
+                parts = (part if _CODE.match(part) else self._written(part) for part in _WORDS.split(text))
+                self._figures[text] = "".join(parts)
             return self._figures[text]
         kept = changed(text, lambda value: value.translate(_KEPT) if isinstance(value, Name) else value)
-        said = translated(kept).translate(self._digits).translate(_SHOWN)
-        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said)
+        return self._written(translated(kept)).translate(_SHOWN)
+
+    def _written(self, text: str) -> str:
+        """Digits, decimal points and marks of thousands of the language."""
+        pointed = text if self._point == "." else _POINT.sub(rf"\1{self._point}", text)
+        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], pointed.translate(self._digits))
 
     def side(self, x: float, width: float = 0.0) -> float:
         """The left edge of what is as wide and lies x from the side of the page where lines begin."""

@@ -82,7 +82,8 @@ def shown_carpet(chart: Chart) -> ShownCarpet:
 def _line(plan: PlanResult, index: int, charted: ChartResult, shown: ShownCarpet) -> OrderLine:
     planned, orders = plan.inputs.orders[index], plan.inputs.orders_file
     by_hand = all(plan.inputs.looms_file.looms[carpet.loom].hand is not None for carpet in plan.carpets(index))
-    wage = orders.wage.of(charted.chart) if orders.wage is not None and by_hand else None
+    rules = plan.inputs.wage
+    wage = rules.of(charted.chart) if rules is not None and by_hand else None
     costs = _costs(plan, index, charted, wage)
     cost = float(sum((amount for _, amount in costs), Decimal(0)))
     carpets = sum(order.entry.quantity for order in plan.inputs.orders)

@@ -37,6 +37,10 @@ OFFER, ORDER_DATA = "offer", "order.json"
 """The folder of the papers for the customer, and the results beside them."""
 
 
+UNPAID = ("the weavers' wages are in the prices as far as the cost of their looms has them; or give [wage]",)
+"""Said where weavers tie and neither the order nor the looms' file has a wage."""
+
+
 @record
 class OrderResult:
     """Results of the job: the plan, the carpets that are offered, and the files by their folders."""
@@ -69,8 +73,11 @@ class OrderResult:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Those of the plan, and files that are left out."""
-        return (*self.plan.warnings, *self.left_out)
+        """Those of the plan, labour that is not priced, and files that are left out."""
+        looms = self.plan.inputs.looms_file.looms
+        tied = [carpet for carpet in self.plan.plan.carpets if looms[carpet.loom].hand is not None]
+        unpaid = UNPAID if tied and self.plan.inputs.wage is None else ()
+        return (*self.plan.warnings, *unpaid, *self.left_out)
 
 
 def work_order(
@@ -121,7 +128,7 @@ def _write_workshops(
     """The result with the files and the codes of the folders of all carpets."""
     orders = done.orders
     languages = orders.workshop_language, orders.language
-    terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, done.lots, signer)
+    terms = WorkshopTerms(orders.customer, orders.currency, done.plan.inputs.wage, *languages, done.lots, signer)
     files, codes, left_out = list[str](), list[tuple[str, ...]](), list[str]()
     for number, (line, rows) in enumerate(zip(done.lines, done.woven, strict=True)):
         own, count = folders[line.name], len(done.lines)
@@ -188,7 +195,7 @@ def order_results(done: OrderResult) -> JsonObject:
 
 def _carpet(done: OrderResult, number: int, planned: JsonObject) -> JsonObject:
     line, woven = done.lines[number], done.woven[number]
-    chart, bill, price, rules = line.charted.chart, line.charted.bill, line.offered.price, done.orders.wage
+    chart, bill, price, rules = line.charted.chart, line.charted.bill, line.offered.price, done.plan.inputs.wage
     index = done.plan.inputs.orders.index(line.planned)
     sheet = None if rules is None or line.wage is None else wage_sheet(line.charted, rules, done.orders.currency, woven)
     sample = line.offered.shown.sample
