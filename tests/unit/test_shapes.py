@@ -17,7 +17,7 @@ from ilmek.carpet.cut_edge import edge_length, finished_area
 from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import carpet_quality
-from ilmek.carpet.shape import SHAPES, ShapeParams, shaped
+from ilmek.carpet.shape import SHAPES, ShapeParams, require_wide, shaped
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn_plan import YarnPlanParams
@@ -167,6 +167,10 @@ REFUSED = {
     "thin island": (
         lambda: shaped(carpet(0.4, 0.4), ShapeParams(shape="picture"), island(slice(10, 12), slice(5, 30))),
         "island too thin to weave, rows 89..90, knots 6..30",
+    ),
+    "island within a cell": (
+        lambda: require_wide(island(slice(0), slice(0)), island(slice(9, 10), slice(8, 9))),
+        "island too thin to weave, rows 91..91, knots 9..9",
     ),
     "rows beyond": (lambda: shaped(carpet(0.4, 0.4), ShapeParams(flat_weave="90-101")), "100 rows of 100"),
     "no area": (lambda: ShapeParams.read({"flat_weave": "7-3"}), "write 1-12/10-30"),

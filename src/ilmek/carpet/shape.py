@@ -270,12 +270,15 @@ def _inside(shape: str, chart: Chart) -> BoolArray:
     return SHAPES[shape](x[np.newaxis], y[:, np.newaxis], size.width, size.length)
 
 
-def require_wide(inside: BoolArray) -> None:
-    """Raise CarpetError for a shape that is empty, or has an island narrower than LEAST_PART knots either way."""
+def require_wide(inside: BoolArray, touched: BoolArray | None = None) -> None:
+    """Raise CarpetError for a shape that is empty, or has an island narrower than LEAST_PART knots either way.
+
+    touched  cells that the outline covers in part, too: an island may be smaller than a cell
+    """
     if not inside.any():
         raise CarpetError("the shape has no cell inside", do="take another shape, or a finer quality")
     square = np.ones((LEAST_PART, LEAST_PART), dtype=bool)
-    islands, _ = ndimage.label(inside, np.ones((3, 3)))
+    islands, _ = ndimage.label(inside if touched is None else touched, np.ones((3, 3)))
     kept = ndimage.binary_opening(inside, square)
     thin = np.setdiff1d(np.unique(islands), np.append(np.unique(islands[kept]), 0))
     if len(thin):

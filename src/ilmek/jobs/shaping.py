@@ -12,7 +12,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.design import encoded, resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
-from ilmek.carpet.shape import PICTURE, shaped
+from ilmek.carpet.shape import PICTURE, require_wide, shaped
 from ilmek.errors import CarpetError
 from ilmek.io.picture import read_picture
 from ilmek.io.rendered.resolution import Rendering
@@ -21,6 +21,9 @@ from ilmek.jobs.order import CarpetOrder
 
 _HALF = int(encoded(0.5))
 """Least code of a cell that is inside: half of its light, as areas are averaged."""
+
+_TOUCHED = int(encoded(0.01))
+"""Least code of a cell that the outline covers in part, above the grain of a photo."""
 
 
 _WHITE, _SEEN = 255, 128
@@ -45,6 +48,7 @@ def with_shape(made: OrderedChart, order: CarpetOrder) -> OrderedChart:
     elif shape.file is not None:
         covered = _on_grid(_covered(base / shape.file, Rendering(1, (chart.rows, chart.columns))), made)
     if covered is not None:
+        require_wide(covered >= _HALF, covered >= _TOUCHED)
         chart = _inner_yarns(chart, covered)
     levels = None if shape.pile_map is None else _levels(base / shape.pile_map, len(shape.levels), made)
     chart = shaped(chart, shape, None if covered is None else covered >= _HALF, levels)
