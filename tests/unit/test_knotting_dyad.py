@@ -2,13 +2,15 @@
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design
+from ilmek.machines.knotting_dyad import MACHINE, KnottingDyadParams, design, search
+from ilmek.machines.knotting_dyad.section import section_of
 from ilmek.plane.solids import is_closed
 from ilmek.report import Drawing, Report
 from ilmek.units import deg
@@ -184,3 +186,22 @@ def test_arms_whose_pivots_lie_behind_their_servos_have_a_plate_with_all_bores()
     assert MACHINE.report(made, illustrated=False).failed
     assert MACHINE.tree is not None
     assert all(part.shape is None or is_closed(part.shape.mesh()) for part, _ in MACHINE.tree(made).occurrences())
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("pitch", ["2mm", "6mm"])
+def test_the_arm_does_not_depend_on_the_rounding_of_a_processor(
+    pitch: str, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each parameter of the grid is moved by its last digit, as another exp or log moves it."""
+    params = KnottingDyadParams.read({"cloth.warp_pitch": pitch})
+    usual, rng, tried = search.best_arm(params, section_of(params)), np.random.default_rng(seed), search._tried
+
+    def moved(*arguments: Any) -> Any:
+        params, section, at, sign = arguments
+        return tried(params, section, np.nextafter(at, at + rng.choice([-1.0, 0.0, 1.0], size=at.shape)), sign)
+
+    monkeypatch.setattr(search, "_tried", moved)
+    arm = search.best_arm(params, section_of(params))
+    assert arm.pivot == pytest.approx(usual.pivot, abs=1e-10)
+    assert (arm.first, arm.second) == pytest.approx((usual.first, usual.second), abs=1e-10)

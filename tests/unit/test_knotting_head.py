@@ -35,7 +35,7 @@ CLOSED = {"opening": "0mm", "cloth.yarns.warp_diameter": "0.8mm"}
 SECTIONS: list[dict[str, str]] = [
     {},
     {"cloth.warp_pitch": "1.25mm", "cloth.yarns.warp_diameter": "0.5mm", "cloth.yarns.pile_density": "0.167g/m"},
-    {"cloth.warp_pitch": "10mm"},
+    {"cloth.warp_pitch": "8mm"},
     {"cloth.warp_pitch": "1.5mm", "cloth.yarns.warp_diameter": "0.5mm", "opening": "0.7mm"},
     {
         "cloth.warp_pitch": "0.5mm",

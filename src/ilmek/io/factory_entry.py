@@ -15,7 +15,12 @@ from ilmek.units import format_number, from_si, has_unit, parse_quantity, parse_
 LARGEST = 2_000_000
 """Largest file of orders, and of looms [bytes]."""
 
-MOST_UNIT = r"[a-z]{1,4}(?:\^?[23]|[²³])?"
+MOST_MONEY = 1e9
+"""Largest amount of money of an entry, in its currency."""
+
+FIRST_YEAR, LAST_YEAR = 1900, 2200
+
+_UNIT = r"[a-z]{1,4}(?:\^?[23]|[²³])?"
 _MONEY = re.compile(rf"\s*(\d{{1,12}}(?:\.\d{{1,6}})?)\s*([^\W\d_]{{1,12}}|[€$£¥₺₹﷼])(?:\s*/\s*({_UNIT}))?\s*")
 _CURRENCY = re.compile(r"[^\W\d_]{1,12}|[€$£¥₺₹﷼]")
 _CLOCK = re.compile(r"([01]?\d|2[0-4]):([0-5]\d)")

@@ -224,7 +224,7 @@ def _plate(
     """
     outer, pivot, middle = motion.hole + 2 * WALL, head.arm.pivot, head.section.middle
     far = params.room.face
-    half = middle - pivot.real + outer / 2 + EDGE
+    half = abs(middle - pivot.real) + outer / 2 + EDGE  # where no arm fits, the pivots may lie crosswise
     bores = [Hole(at, outer / 2) for at in both(head, pivot)]
     if far is None:
         servos, room = range(standing_servos(params)), servo_face(motion) / 2 + EDGE

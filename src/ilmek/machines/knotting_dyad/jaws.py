@@ -27,6 +27,7 @@ from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import RELEASE, KnotCycle
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
+from ilmek.machines.linkage_strength import smallest_pin
 from ilmek.machines.weaver.forces import grip_force
 from ilmek.machines.weaver.params import LEAST_FRICTION
 from ilmek.records import computed, record, result
@@ -48,6 +49,9 @@ PLAY = 0.03 * mm
 
 PIN, LUG, CHEEK = 0.6 * mm, 2 * mm, 0.55 * mm
 """Diameter of a finger's pin, side and thickness of the lugs that hold it [m]."""
+
+ON_CLAMP = 0.6 * LUG
+"""From a finger's pin to the end of its link, at least [m]."""
 
 IN_BORE, WALL, COLLAR = 0.2 * mm, 0.8 * mm, 0.4 * mm
 """Room of a rod about it in a bore, least wall about this, and thickness of the rod's collar on the spring [m]."""
@@ -167,7 +171,7 @@ def jaws_of(params: KnottingDyadParams, head: Head, hole: float) -> Jaws:
     opening, long = _opening(params), head.arm.second
     rod = hole - 2 * IN_BORE
     clamp = long - head.section.needle_length
-    arm = min(STROKE * long / (opening + STROKE), max(clamp - 0.6 * LUG, clamp / 2))
+    arm = min(STROKE * long / (opening + STROKE), max(clamp - ON_CLAMP, clamp / 2))
     tip, crank = long - arm, TAIL + params.link_thickness + IN_BORE / 2 + rod / 2
     friction = max(params.cloth.yarns.friction, LEAST_FRICTION)
     grip = grip_force(params.grip_safety, friction, 1, params.yarn_pull)
@@ -211,6 +215,16 @@ def depth_of(params: KnottingDyadParams) -> float:
     return max(params.link_thickness / 2 + TAIL + EYE, params.needle_breadth / 2 + TINE)
 
 
+def least_clamp(params: KnottingDyadParams) -> float:
+    """Length of an arm's second link before its needle, at least [m]: its width; the finger's pin before the hub."""
+    return max(params.link_width, _before_hub(smallest_pin(params.strength, params.link_width)) + ON_CLAMP)
+
+
+def _before_hub(hole: float) -> float:
+    """From an elbow with a hole to the pin of its finger, whose lugs stand before the hub [m]."""
+    return hole / 2 + HUB_WALL + LUG / 2
+
+
 def _opening(params: KnottingDyadParams) -> float:
     """Opening of the jaws [m]: for a pile yarn, with the clearance on both sides."""
     return params.yarn + 2 * params.clearance
@@ -240,7 +254,7 @@ def jaw_checks(params: KnottingDyadParams, head: Head, jaws: Jaws, cycle: KnotCy
     yield at_most(
         "stress of a finger", bent, STEEL.strength / 1.5, "MPa", "bending where it leaves the link"
     ).with_cure(softer, parts[0])
-    hub = jaws.rod / 2 + IN_BORE + HUB_WALL + LUG / 2
-    yield at_least("finger's pin from the elbow", jaws.arm, hub, "mm", "its lugs stand before the hub").with_cure(
+    before = _before_hub(jaws.rod + 2 * IN_BORE)
+    yield at_least("finger's pin from the elbow", jaws.arm, before, "mm", "its lugs stand before the hub").with_cure(
         "set a finer pile yarn, or a longer link", parts[0]
     )

@@ -21,6 +21,7 @@ import numpy as np
 from ilmek.arrays import Bool, BoolArray, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.linkage.swivelled_arm import SwivelledArm
+from ilmek.machines.knotting_dyad.jaws import least_clamp
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import WarpSection
 from ilmek.plane.vectors import cross
@@ -31,6 +32,13 @@ GRID, ZOOM, ROUNDS, SHRINK = (20, 21, 40), 9, 8, 0.45
 
 LONGER, MISSED = 1.25, 1e3
 """Links that are tried where the second one alone is over its limit, over it; cost of a limit that is missed."""
+
+EXACT = 1e-12
+"""Part of a limit, and length [m], by which an arm that lies on the limit may miss it.
+
+At the hand-over the needle of every arm stands at the limit beside the centre gripper: without it half of the arms
+would be refused by their rounding, others on another processor.
+"""
 
 SAMPLES = 17
 """Positions on the path at which tilt and sides are checked."""
@@ -53,7 +61,7 @@ class _Tried:
 
 def best_arm(params: KnottingDyadParams, section: WarpSection) -> SwivelledArm:
     """The left arm. Raises ParameterError where there is none."""
-    least = section.needle_length + params.link_width
+    least = section.needle_length + least_clamp(params)
     limit = max(params.link_limit, LONGER * least)
     seconds = np.geomspace(least, limit, GRID[0])
     tilts = np.linspace(-section.tilt, section.tilt, GRID[1])
@@ -103,10 +111,10 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
         bent = _bent(np.abs(pivot - gap), first, r0, r1)
         there = (side == np.sign(cross(pivot - gap, E1 - gap))) & (r1 > 0) & (bent > 0)
         limits = (
-            np.abs(tilt) <= section.tilt,
-            np.maximum(first, second) <= params.link_limit,
-            second >= section.needle_length + params.link_width,
-            bent >= np.sin(params.bend_limit),
+            np.abs(tilt) <= section.tilt * (1 + EXACT),
+            np.maximum(first, second) <= params.link_limit * (1 + EXACT),
+            second >= (section.needle_length + least_clamp(params)) * (1 - EXACT),
+            bent >= np.sin(params.bend_limit) * (1 - EXACT),
             _pivot_clear(params, section, pivot),
         )
         missed = np.sum([~limit for limit in limits], axis=0)
@@ -127,8 +135,8 @@ def _bent(base: FloatArray, first: FloatArray, r0: FloatArray, r1: FloatArray) -
 
 def _pivot_clear(params: KnottingDyadParams, section: WarpSection, pivot: ComplexArray) -> BoolArray:
     """The pivot is above warps and pile, and leaves room for the other arm's motor."""
-    room = section.middle - pivot.real >= params.pivot_room / 2
-    return np.asarray(room & (pivot.imag >= 2 * params.leg))
+    room = section.middle - pivot.real >= params.pivot_room / 2 - EXACT
+    return np.asarray(room & (pivot.imag >= 2 * params.leg - EXACT))
 
 
 def _own_side(  # noqa: PLR0917
@@ -148,12 +156,12 @@ def _own_side(  # noqa: PLR0917
     cosine = (r + (base**2 - first[:, None] ** 2) / r) / (2 * base)
     out = np.exp(1j * (np.angle(pivot - section.gap)[:, None] + side[:, None] * np.arccos(cosine)))
     elbow, wide = section.gap + r * out, section.gap + (section.needle_length - beyond) * out
-    room = section.width + section.room
-    above = section.width / 2 + section.warp / 2 + section.room
+    room = section.width + section.room - EXACT
+    above = section.width / 2 + section.warp / 2 + section.room - EXACT
     right = np.maximum(elbow.real, wide.real)
     low = np.minimum(elbow.imag, wide.imag)
-    straight = out.imag >= np.cos(section.tilt) - 1e-12
-    beside = elbow.real <= section.middle - _elbow_room(params, section)
+    straight = out.imag >= np.cos(section.tilt) - EXACT
+    beside = elbow.real <= section.middle - _elbow_room(params, section) + EXACT
     fits: Bool[np.ndarray, " n"] = np.all(
         (right <= section.middle - room) & (low >= above) & beside & straight, axis=-1
     )
