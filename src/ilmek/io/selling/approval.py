@@ -22,6 +22,9 @@ _CARD = (
     PageColumn(Sentence("order.knots"), 420.0, end=True),
     PageColumn(Sentence("order.lots"), ROOM, end=True),
 )
+WIDEST = 0.45
+"""Greatest part of the lines' width that the carpet takes beside the facts of its strike-off."""
+
 _SIGNED = ("order.approved", "order.changes", "order.signed")
 
 
@@ -116,9 +119,8 @@ def _true_size(page: OrderPage, carpet: OfferedCarpet) -> None:
 
 def _strike_off(page: OrderPage, carpet: OfferedCarpet) -> None:
     chart, sample, shown = carpet.chart, carpet.shown.sample, carpet.shown
-    high = min(190.0, page.y - LOW - 20.0)
-    scale = high / shown.whole.height
-    wide = scale * shown.whole.width
+    scale = min(min(190.0, page.y - LOW - 20.0) / shown.whole.height, WIDEST * ROOM / shown.whole.width)
+    high, wide = scale * shown.whole.height, scale * shown.whole.width
     page.picture(shown.whole, LEFT, page.y - high, wide, high)
     left, top, across, down = shown.pile
     corner = page.canvas.side(LEFT, wide) + wide * (left + across * sample.left / chart.columns)
@@ -144,4 +146,5 @@ def _strike_off(page: OrderPage, carpet: OfferedCarpet) -> None:
         LEFT + wide + 20.0,
         90.0,
     )
-    page.write(LEFT + wide + 20.0, page.y - 6.0, Sentence("order.strike-note"), 8, grey=True)
+    page.y -= 6.0
+    page.paragraph(Sentence("order.strike-note"), LEFT + wide + 20.0, 8, grey=True)
