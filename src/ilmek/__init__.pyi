@@ -73,6 +73,7 @@ from ilmek.dynamics.loads import Load as Load
 from ilmek.dynamics.loads import PointForce as PointForce
 from ilmek.dynamics.loads import Torque as Torque
 from ilmek.dynamics.motor_drive import MotorDrive as MotorDrive
+from ilmek.dynamics.own_machine import EndStop as EndStop
 from ilmek.dynamics.own_machine import OwnMachine as OwnMachine
 from ilmek.dynamics.springs import Spring as Spring
 from ilmek.errors import IlmekError as IlmekError

@@ -360,9 +360,12 @@ CALLS: dict[str, Call] = {
                 (ilmek.PinFriction("B", 0.0, 0.1, 1e-4),), wrong=((GRAVITY,), (ilmek.PinFriction("x", 0.01, 0.1),))
             ),
             flywheel=Quantity(0.01, "kg*m^2"),
+            stops=Other([ilmek.EndStop(2.0)], wrong=(3, [3])),
+            ratchet=Other(1, wrong=(2, "up")),
             every=Quantity(0.01, "s"),
         ),
     ),
+    "EndStop": Call(ilmek.EndStop, (angle(),), dict(rebound=Quantity(0.5, ""), name=FreeText("wall"))),
     "MotorDrive": Call(
         ilmek.MotorDrive,
         (Quantity(2.0, "N*m"),),

@@ -14,6 +14,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction
 from ilmek.dynamics.loads import Load
 from ilmek.dynamics.motor_drive import MotorDrive
+from ilmek.dynamics.own_machine import EndStop
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Input, Rotation
@@ -30,6 +31,8 @@ def forward_dynamics(
     loads: Sequence[Load] = (),
     joint_frictions: Sequence[JointFriction] = (),
     flywheel: Quantity | Mapping[str, Quantity] = 0.0,
+    stops: Sequence[EndStop] = (),
+    ratchet: int = 0,
     every: Quantity | None = None,
 ) -> ForwardRun:
     """Run of a mechanism from a state, under its drives, loads and friction.
@@ -43,6 +46,7 @@ def forward_dynamics(
     joint_frictions  friction of joints: `PinFriction`, `SlideFriction`; default: none
     flywheel  inertia that moves with the input [kg m²; kg for a sliding input], beside that of its motor; of several
               inputs by name
+    stops     end stops of one input      ratchet  the direction in which one input is free, +1 or -1; 0: both
     every     time between the reported samples [s]; default: the steps of the integrator
 
     Friction that brings the machine, or one of several inputs' joints, to rest and holds it there ends the run: see
@@ -76,6 +80,8 @@ def forward_dynamics(
         ForwardState(*(start if len(inputs) > 1 else (float(one[0]) for one in start))),
         given.number("duration", duration, "s"),
         drive=drives,
+        stops=given.sequence("stops", stops, EndStop),
+        ratchet=given.whole("ratchet", ratchet, least=-1, most=1),
         every=None if every is None else given.number("every", every, "s"),
     )
 

@@ -10,7 +10,7 @@ I, section II.10]. The work of drives and loads is integrated as well, for the e
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby
 from typing import TypeAlias
 
@@ -18,12 +18,14 @@ import numpy as np
 import scipy
 
 from ilmek.arguments import Arguments
-from ilmek.arrays import FloatArray
+from ilmek.arrays import BoolArray, FloatArray
+from ilmek.dynamics.end_stops import Contact, Limits, after_contact, limits_of, rest
 from ilmek.dynamics.equation_of_motion import GeneralEquation, general_equation
 from ilmek.dynamics.events import Event, EventRecord, crossing_time, until_terminal
 from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState, Row, RunEnd, motion_of
 from ilmek.dynamics.fourier_terms import tabulate
 from ilmek.dynamics.one_input import OneInputEquation
+from ilmek.dynamics.own_machine import EndStop
 from ilmek.dynamics.pose_block import part_of
 from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.dynamics.reversals import Equation, RunSample, between, restarted, reversal
@@ -80,6 +82,8 @@ def forward(
     *,
     drive: Drive | Mapping[str, Drive] | None = None,
     events: Sequence[RunEvent] = (),
+    stops: Sequence[EndStop] = (),
+    ratchet: int = 0,
     every: float | None = None,
     rtol: float = 1e-9,
     most_steps: int = MOST_STEPS,
@@ -92,6 +96,7 @@ def forward(
     drive     a `MotorDrive`, or the effort on the input [N m; N] as a function of time, position and speed; of several
               inputs by name; default: no drive, the machine coasts
     events    checked at each step of the integrator; a terminal event ends the run; default: none
+    stops     of one input      ratchet  the direction in which one input is free, +1 or -1; 0: both
     every     time between the reported samples [s]; default: the steps of the integrator
     rtol      relative error of a step in angle (relative to 1 rad), speed and work, 3e-14 to 1e-2
     most_steps  of the integrator
@@ -104,7 +109,16 @@ def forward(
     _check_start(reduced, start)
     equation = _equation(reduced, start, drive)
     first, scale = equation.first(start)
-    task = _Task(start.time, start.time + duration, rtol, rtol * scale, tuple(events), every, most_steps)
+    task = _Task(
+        start.time,
+        start.time + duration,
+        rtol,
+        rtol * scale,
+        tuple(events),
+        every,
+        most_steps,
+        limits_of(stops, ratchet, start),
+    )
     at: RunSample | RunEnd = RunSample(start.time, first, equation)
     if isinstance(equation, GeneralEquation) and 0.0 in equation.signs:
         at = restarted(RunSample(start.time, first, equation), np.array(equation.signs[: equation.dry]) == 0)
@@ -140,6 +154,7 @@ class _Task:
     events: tuple[RunEvent, ...]
     every: float | None
     most_steps: int
+    limits: Limits | None = None
 
     def solver(self, at: RunSample) -> "scipy.integrate.DOP853":
         """The integrator from a sample."""
@@ -153,6 +168,7 @@ class _Integration:
     samples: list[RunSample]
     happened: list[EventRecord[ForwardState]]
     end: RunEnd
+    rests: list[tuple[float, float]] = field(default_factory=list)
 
 
 def _check(duration: float, every: float | None, rtol: float) -> None:
@@ -179,7 +195,8 @@ def _advance(task: _Task, at: RunSample) -> _Integration:
     """Integrate to the end of the run; the last sample is the end."""
     solver, equation, samples = task.solver(at), at.equation, [at]
     happened: list[EventRecord[ForwardState]] = []
-    before, mark = _values(task.events, at.state), at.time
+    rests: list[tuple[float, float]] = []
+    before, mark, greatest = _values(task.events, at.state), at.time, abs(float(at.row[1]))
     for step in range(1, task.most_steps + 1):
         if solver.status != "running" or _crawls(task, step, solver.t - mark):
             break
@@ -187,27 +204,43 @@ def _advance(task: _Task, at: RunSample) -> _Integration:
         solver.step()
         if solver.status == "failed" or _stopped_at_limit(solver, equation):
             _add_end(samples, RunSample(float(solver.t), np.array(solver.y), equation))
-            return _Integration(samples, happened, _failure(solver, equation))
-        last, resting = reversal(solver, equation)
+            return _Integration(samples, happened, _failure(solver, equation), rests)
+        last, resting, contact = _step_end(task, solver, equation)
+        greatest = max(greatest, abs(float(last.row[1])))
         now = _values(task.events, last.state) if task.events else []
         happened += _events_in_step(solver, last, task.events, before, now)
         if happened and happened[-1].terminal:
             hit = happened[-1]
             samples += _samples_in_step(solver, task, between(solver, equation, hit.time), ends=True)
-            return _Integration(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
+            return _Integration(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name), rests)
         samples += _samples_in_step(solver, task, last, ends=solver.status == "finished" and resting is None)
         before = now
+        if contact is not None:
+            happened.append(EventRecord(contact.name, last.time, last.state, terminal=False))
+            on = _after(task, contact, greatest, samples, rests)
+            if on is None:
+                break
+            before, equation, solver = _values(task.events, on.state), on.equation, task.solver(on)
         if resting is not None:
             after = restarted(last, resting)
             if isinstance(after, RunEnd):
                 _add_end(samples, last)
-                return _Integration(samples, happened, after)
+                return _Integration(samples, happened, after, rests)
             equation, solver = after.equation, task.solver(after)
-    if solver.status == "running":
+    if solver.status == "running" and samples[-1].time < task.end:
         _add_end(samples, RunSample(float(solver.t), np.array(solver.y), equation))
         reason = f"{step} steps of the integrator reached {solver.t:.4g} s of {solver.t_bound:.4g} s"
-        return _Integration(samples, happened, RunEnd(EndKind.STEPS, samples[-1].state, reason))
-    return _Integration(samples, happened, RunEnd(EndKind.TIME, samples[-1].state, "its duration was reached"))
+        return _Integration(samples, happened, RunEnd(EndKind.STEPS, samples[-1].state, reason), rests)
+    return _Integration(samples, happened, RunEnd(EndKind.TIME, samples[-1].state, "its duration was reached"), rests)
+
+
+def _step_end(
+    task: _Task, solver: "scipy.integrate.DOP853", equation: Equation
+) -> tuple[RunSample, BoolArray | None, Contact | None]:
+    """The state up to which the last step holds; which joints rest there; the contact there."""
+    last, resting = reversal(solver, equation)
+    contact = task.limits.contact(solver, last) if task.limits is not None else None
+    return (last, resting, None) if contact is None else (contact.at, None, contact)
 
 
 def _crawls(task: _Task, step: int, advance: float) -> bool:
@@ -232,6 +265,25 @@ def _samples_in_step(solver: "scipy.integrate.DOP853", task: _Task, last: RunSam
         at.append(last.time)
     rows = solver.dense_output()(np.array(at)).T if at else ()
     return [RunSample(time, row, last.equation) for time, row in zip(at, rows, strict=True)]
+
+
+def _after(
+    task: _Task, contact: Contact, greatest: float, samples: list[RunSample], rests: list[tuple[float, float]]
+) -> RunSample | None:
+    """The state after a contact, and after the rest that may follow; None: it rests until the end of the run."""
+    after = after_contact(contact, greatest)
+    if after is None:
+        after = rest(contact, task.end)
+        rests.append((contact.at.time, task.end if after is None else after.time))
+        samples += _samples_of_rest(task, contact.at, rests[-1], ends=after is None)
+    return after
+
+
+def _samples_of_rest(task: _Task, at: RunSample, span: tuple[float, float], *, ends: bool) -> list[RunSample]:
+    """Samples of an input at rest over a span [s]."""
+    times = [] if task.every is None else np.arange(task.start, span[1], task.every).tolist()
+    times = [time for time in times if time > span[0]]
+    return [at._replace(time=time) for time in (*times, *([span[1]] if ends or task.every is None else []))]
 
 
 def _events_in_step(
@@ -313,6 +365,8 @@ def _forward_run(reduced: ReducedMechanism, found: _Integration) -> ForwardRun:
         at = list(group)
         parts.append(found.samples[at[0]].equation.history(time[at], rows[at]))
     speed, acceleration, effort = (np.concatenate(one, axis=-1) for one in zip(*parts, strict=True))
+    for begin, end in found.rests:
+        acceleration[(time > begin) & (time <= end)] = 0.0
     position = rows[:, 0] if count == 1 else rows[:, :count].T
     equation = found.samples[0].equation
     table = equation.table if isinstance(equation, OneInputEquation) else None

@@ -114,6 +114,8 @@ def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForwar
         task.duration,
         drive=task.drive,
         events=[_event(event) for event in task.events],
+        stops=task.stops,
+        ratchet=task.ratchet,
         every=task.duration / SAMPLES,
         rtol=RTOL,
         most_steps=MOST_STEPS,

@@ -5,6 +5,7 @@ computed here. All quantities are SI; angles are in radians.
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias
@@ -15,10 +16,11 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, gravity_vector
 from ilmek.dynamics.motor_drive import MotorDrive
-from ilmek.errors import MechanismError
+from ilmek.errors import MechanismError, UnitError
 from ilmek.linkage.joints import body_point
 from ilmek.linkage.model import Mechanism
-from ilmek.records import record
+from ilmek.records import record, value_record
+from ilmek.units import parse_quantity
 
 InputLaw: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 """Times [s] -> value [rad; m], speed and acceleration of an input: constant speed, motion laws in sequence, a table."""
@@ -119,15 +121,57 @@ class StopEvent:
     direction: int = 0
 
 
+@value_record
+class EndStop:
+    """A stop of the input of a forward run, on the side on which it starts.
+
+    position  [rad; m]      rebound  coefficient of restitution, 0 to 1
+
+    A text has its unit. Raises MechanismError for a position that is not finite, and a rebound out of its bounds.
+
+    >>> from ilmek import bar, forward_dynamics, four_bar
+    >>> linkage, masses = four_bar(0.300, 0.060, 0.200, 0.230), {"crank": bar(0, 0.060, mass=0.4)}
+    >>> run = forward_dynamics(linkage, masses, 0.5, speed=10, stops=[EndStop("60deg", rebound=0.5)])
+    >>> [(event.name, round(event.time, 4)) for event in run.events], round(float(run.speed[-1]), 3)
+    ([('end stop', 0.1047)], -5.0)
+    """
+
+    position: float
+    rebound: float = 0.0
+    name: str = "end stop"
+
+    def __post_init__(self) -> None:
+        given = Arguments("an end stop", MechanismError)
+        object.__setattr__(self, "position", given.number("position", self.position, _unit_of(self.position)))
+        object.__setattr__(self, "rebound", given.number("rebound", self.rebound))
+        if not 0 <= self.rebound <= 1:
+            raise MechanismError(f"rebound of an end stop is {self.rebound:g}", allowed="0 to 1")
+        object.__setattr__(self, "name", given.text("name", self.name))
+
+
+def _unit_of(position: object) -> str:
+    """Whether a position is a length as a text: of a sliding input."""
+    if isinstance(position, str):
+        with suppress(UnitError):
+            parse_quantity(position, "m")
+            return "m"
+    return "rad"
+
+
 @record
 class ForwardTask:
-    """A forward run: from a state of the driven input, under its drive, for a duration [s]."""
+    """A forward run: from a state of the driven input, under its drive, for a duration [s].
+
+    ratchet  the direction in which alone the input moves, +1 or -1; 0: both
+    """
 
     duration: float
     position: float = 0.0
     speed: float = 0.0
     drive: MotorDrive | None = None
     events: tuple[StopEvent, ...] = ()
+    stops: tuple[EndStop, ...] = ()
+    ratchet: int = 0
 
 
 @record

@@ -76,11 +76,11 @@ def _input_at_rest(solver: "scipy.integrate.DOP853", equation: Equation) -> RunS
     dense = solver.dense_output()
     rest = between(solver, equation, crossing_time(lambda time: float(dense(time)[1]), solver.t_old, solver.t))
     rest.row[1] = math.copysign(LEAST, solver.y_old[1])
-    ahead, back = (_departed(rest, direction)[1] for direction in (1.0, -1.0))
+    ahead, back = (departed(rest, direction)[1] for direction in (1.0, -1.0))
     return None if abs(ahead - back) <= RESTING * (abs(ahead) + abs(back)) else rest
 
 
-def _departed(rest: RunSample, direction: float) -> tuple[RunSample, float]:
+def departed(rest: RunSample, direction: float) -> tuple[RunSample, float]:
     """The state just after a rest of one input, in a direction, and the derivative of its speed or momentum there."""
     row = rest.row.copy()
     row[1] = direction * LEAST
@@ -94,7 +94,7 @@ def restarted(at: RunSample, resting: BoolArray) -> RunSample | RunEnd:
     """The state with the signs after it, where some joints with dry friction rest; the end where friction holds one."""
     one = len(at.equation.reduced.wheels) == 1
     if one and abs(at.row[1]) <= LEAST:
-        departures = [(direction, *_departed(at, direction)) for direction in (1.0, -1.0)]
+        departures = [(direction, *departed(at, direction)) for direction in (1.0, -1.0)]
         possible = [(direction * rate, after) for direction, after, rate in departures if direction * rate > 0]
         if possible:
             return max(possible, key=lambda departure: departure[0])[1]

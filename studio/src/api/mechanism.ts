@@ -1077,6 +1077,16 @@ export interface Forward {
   events?: {
     [k: string]: Event;
   };
+  /**
+   * name -> end stop of the input, on the side on which it starts
+   */
+  stops?: {
+    [k: string]: EndStop;
+  };
+  /**
+   * direction in which alone the input moves
+   */
+  ratchet?: "up" | "down";
 }
 export interface Torque {
   /**
@@ -1138,6 +1148,17 @@ export interface Event {
    * the run ends there; default: true
    */
   stop?: boolean;
+}
+/**
+ * This interface was referenced by `MechanismFile`'s JSON-Schema
+ * via the `definition` "end stop".
+ */
+export interface EndStop {
+  position: number | string;
+  /**
+   * coefficient of restitution, 0 to 1; default: 0
+   */
+  rebound?: number | string;
 }
 export interface StudySpeeds {
   /**
@@ -1215,4 +1236,14 @@ export interface Forward1 {
   events?: {
     [k: string]: Event;
   };
+  /**
+   * name -> end stop of the input, on the side on which it starts
+   */
+  stops?: {
+    [k: string]: EndStop;
+  };
+  /**
+   * direction in which alone the input moves
+   */
+  ratchet?: "up" | "down";
 }

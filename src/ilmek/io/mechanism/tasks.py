@@ -6,7 +6,7 @@ import numpy as np
 
 from ilmek.dynamics.friction import Friction
 from ilmek.dynamics.motor_drive import MotorDrive
-from ilmek.dynamics.own_machine import ForwardTask, NamedLoad, SpeedStudy, StopEvent
+from ilmek.dynamics.own_machine import EndStop, ForwardTask, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
 from ilmek.io.declared import ChoiceEntry, FlagEntry, ListEntry, TableEntry, WholeEntry, keys, names, quantity, variant
 from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, unknown, value_of
@@ -55,6 +55,14 @@ _EVENT = keys(
     name="event",
 )
 
+_STOP = keys(
+    {"position": position_of_input()},
+    {"rebound": quantity("1", "coefficient of restitution, 0 to 1; default: 0", least=0.0)},
+    name="end stop",
+)
+
+_RATCHETS = {name: sign for name, sign in _DIRECTIONS.items() if sign}
+
 FORWARD = TableEntry(
     "a run from a state under a motor",
     {"duration": quantity("s", above=0.0)},
@@ -63,6 +71,8 @@ FORWARD = TableEntry(
         "speed": speed_of_input("of the input at the start; default: 0"),
         "motor": _MOTOR,
         "events": names(_EVENT, "name -> one of position, speed, time"),
+        "stops": names(_STOP, "name -> end stop of the input, on the side on which it starts"),
+        "ratchet": ChoiceEntry("direction in which alone the input moves", tuple(_RATCHETS)),
     },
     name="forward",
 )
@@ -98,7 +108,9 @@ def forward_of(
         if speed == 0 and against is not None:
             given = f"the run starts at rest, where friction {against!r} has no direction"
             raise MechanismError(given, do='give the speed at the start, like speed = "1rpm"')
-        return ForwardTask(table["duration"], position, speed, drive, tuple(events))
+        stops = [_stop(name, stop, unit) for name, stop in table.get("stops", {}).items()]
+        ratchet = _RATCHETS.get(table.get("ratchet", ""), 0)
+        return ForwardTask(table["duration"], position, speed, drive, tuple(events), tuple(stops), ratchet)
 
 
 def _event(name: str, table: Table, unit: str) -> StopEvent:
@@ -111,6 +123,10 @@ def _event(name: str, table: Table, unit: str) -> StopEvent:
     value = table[of] if of == "time" else value_of(table[of], units[of], of)
     direction = _DIRECTIONS[table.get("direction", "both")]
     return StopEvent(name, of, value, table.get("stop", True), direction)
+
+
+def _stop(name: str, table: Table, unit: str) -> EndStop:
+    return EndStop(value_of(table["position"], unit, "position"), table.get("rebound", 0.0), name)
 
 
 def _motor(table: Table | None, unit: str) -> MotorDrive | None:
@@ -146,6 +162,12 @@ def forward_data(task: ForwardTask, unit: str) -> JsonObject:
             }
             for event in task.events
         }
+    if task.stops:
+        data["stops"] = {
+            stop.name: {"position": Measured(stop.position, unit), "rebound": stop.rebound} for stop in task.stops
+        }
+    if task.ratchet:
+        data["ratchet"] = next(name for name, sign in _RATCHETS.items() if sign == task.ratchet)
     return data
 
 
